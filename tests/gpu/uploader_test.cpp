@@ -109,6 +109,35 @@ TEST_P(UploaderTest, ABudgetLeavesWholeWritesForLaterButMakesProgress) {
   EXPECT_EQ(send(uploader), 0u);
 }
 
+// Twice before a batch; what was sent, what waited and what is written past the old end all arrive,
+// and no call but send() submits anything.
+TEST_P(UploaderTest, AReplacedBufferKeepsWhatItHasAndWhatWaits) {
+  std::vector<std::byte> expected = noise(1 << 16, 1);
+  Buffer table = target(expected.size());
+  Uploader uploader(device(), GetParam());
+  uploader.write<std::byte>(table, 0, expected);
+  send(uploader);
+  const std::uint64_t submits = device().next_value();
+  const auto write = [&](std::size_t offset, std::uint32_t seed) {
+    const std::vector<std::byte> bytes = noise(4096, seed);
+    uploader.write<std::byte>(table, offset, bytes);
+    expected.resize(std::max(expected.size(), offset + bytes.size()));
+    std::ranges::copy(bytes, expected.begin() + static_cast<std::ptrdiff_t>(offset));
+  };
+  write(256, 2);
+  uploader.replace(table, target(1 << 17));
+  write(1 << 16, 3);
+  uploader.replace(table, target(1 << 18));
+  write(2048, 4);
+  EXPECT_EQ(device().next_value(), submits);
+  EXPECT_EQ(send(uploader, 0), 4096u) << "bytes that are copied do not count";
+  send(uploader);
+  std::vector<std::byte> found = contents(table);
+  EXPECT_EQ(found.size(), std::size_t{1} << 18);
+  found.resize(expected.size());
+  EXPECT_EQ(found, expected);
+}
+
 TEST_P(UploaderTest, ABatchWaitsForReadsBeforeAndIsSeenByReadsAfter) {
   Buffer to = target(4096), copy = buffer("copy", 4096, kUsage);
   Uploader uploader(device(), GetParam());

@@ -80,6 +80,13 @@ struct Uploader::State {
     std::uint64_t value = 0;
   };
 
+  /// A buffer that another one has replaced.
+  struct Replaced {
+    Buffer old;
+    Buffer* by;
+  };
+
+  void record_copies(VkCommandBuffer commands);
   void record_writes(VkCommandBuffer commands, std::span<const Write> batch);
   void write_mapped(const Write& write);
   void record_transfer(VkCommandBuffer commands, const Write& write);
@@ -92,6 +99,7 @@ struct Uploader::State {
   Device& device;
   UploadPath path;
   std::deque<Write> queue;
+  std::vector<Replaced> replaced;
   std::uint64_t pending = 0;
   std::vector<std::unique_ptr<Block>> blocks;
   Block* current = nullptr;  ///< being filled by this batch
@@ -99,7 +107,7 @@ struct Uploader::State {
 };
 
 Uploader::Uploader(Device& device, UploadPath path)
-    : state_(new State{device, path, {}, 0, {}, nullptr, {}}) {}
+    : state_(new State{device, path, {}, {}, 0, {}, nullptr, {}}) {}
 
 Uploader::~Uploader() = default;
 
@@ -127,7 +135,17 @@ void Uploader::fill(Buffer& to, std::uint64_t offset_bytes, std::uint64_t size_b
 
 void Uploader::discard() {
   state_->queue.clear();
+  state_->replaced.clear();
   state_->pending = 0;
+}
+
+void Uploader::replace(Buffer& table, Buffer bigger) {
+  SKERRY_ASSERT(bigger.size_bytes() >= table.size_bytes());
+  const bool waits = std::ranges::any_of(
+      state_->replaced, [&](const State::Replaced& entry) { return entry.by == &table; });
+  std::swap(table, bigger);
+  // One that was replaced before it got its bytes holds none.
+  if (!waits) state_->replaced.push_back({std::move(bigger), &table});
 }
 
 std::uint64_t Uploader::pending_bytes() const {
@@ -139,6 +157,7 @@ const UploadBytes& Uploader::sent() const {
 }
 
 std::uint64_t Uploader::record(VkCommandBuffer commands, std::uint64_t budget_bytes) {
+  state_->record_copies(commands);
   std::vector<State::Write> batch;
   std::uint64_t bytes = 0;
   while (!state_->queue.empty() &&
@@ -150,6 +169,19 @@ std::uint64_t Uploader::record(VkCommandBuffer commands, std::uint64_t budget_by
   state_->pending -= bytes;
   if (!batch.empty()) state_->record_writes(commands, batch);
   return bytes;
+}
+
+void Uploader::State::record_copies(VkCommandBuffer commands) {
+  for (Replaced& entry : replaced) {
+    touch(device, commands, entry.old,
+          {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, {}, false});
+    touch(device, commands, *entry.by,
+          {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, {}, true});
+    const VkBufferCopy region{0, 0, entry.old.size_bytes()};
+    vkCmdCopyBuffer(commands, entry.old.handle(), entry.by->handle(), 1, &region);
+    touch(device, commands, *entry.by, {kReadStages, kReadAccess, {}, false});
+  }
+  replaced.clear();  // retired until this batch has run
 }
 
 void Uploader::State::record_writes(VkCommandBuffer commands, std::span<const Write> batch) {

@@ -52,11 +52,16 @@ class Uploader {
   void write(Buffer& to, std::uint64_t offset_bytes, std::span<const T> values) {
     write(to, offset_bytes, std::as_bytes(values));
   }
+  /// Puts another buffer in the place of `table`, for what waits to be written, too. The old one's
+  /// bytes are copied to its beginning ahead of the next batch, whatever that one's budget. Until
+  /// then nobody may use the table. Both need the usage TRANSFER_SRC.
+  /// @pre the bigger one is as large at least, and new.
+  void replace(Buffer& table, Buffer bigger);
   std::uint64_t pending_bytes() const;
   /// Records queued writes, oldest first, until about `budget_bytes` (at least one whole write).
   /// @return bytes recorded.
   std::uint64_t record(VkCommandBuffer commands, std::uint64_t budget_bytes);
-  /// Drops queued writes.
+  /// Drops queued writes and what is to be copied of replaced buffers.
   void discard();
   const UploadBytes& sent() const;
   /// Fills an image's mips and layers once, at start-up: tightly packed, mip by mip, layers in

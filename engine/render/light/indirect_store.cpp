@@ -74,7 +74,7 @@ Result<std::unique_ptr<IndirectStore>> IndirectStore::create(gpu::Device& device
       make_table(device, budget, "light of the sky", texels * kTexelBytes, true);
   if (!made) return made.error();
   store->texels_ = *std::move(made);
-  const Result<gpu::ArenaRange> head = store->allocate(shared::kIndirectFirst);
+  const Result<gpu::ArenaRange> head = store->arena_.allocate(shared::kIndirectFirst);
   SKERRY_ASSERT(head && head->first == 0);
   device.run_now([&](VkCommandBuffer commands) {
     const auto fill = [&](std::uint64_t first, std::uint64_t end, std::uint32_t word) {
@@ -90,9 +90,9 @@ Result<std::unique_ptr<IndirectStore>> IndirectStore::create(gpu::Device& device
   return store;
 }
 
-Result<gpu::ArenaRange> IndirectStore::allocate(std::uint32_t texels) {
+Result<gpu::ArenaRange> IndirectStore::allocate(gpu::Uploader& uploader, std::uint32_t texels) {
   if (texels == 0) return gpu::ArenaRange{};
-  return render::allocate(*device_, *budget_,
+  return render::allocate(*device_, *budget_, uploader,
                           {arena_, texels_, kTexelBytes, most_texels(*device_, *budget_)}, texels);
 }
 
@@ -135,7 +135,7 @@ Result<void> IndirectStore::begin(gpu::Uploader& uploader, std::uint32_t island,
   } else if (!entry.made || !same_grid(entry.made->box, box)) {
     free(entry.made);
     const Result<gpu::ArenaRange> tables =
-        allocate(volume(box.size) * shared::kIndirectTableTexels);
+        allocate(uploader, volume(box.size) * shared::kIndirectTableTexels);
     if (!tables) return tables.error();
     uploader.fill(texels_, tables->first * kTexelBytes, tables->count * kTexelBytes, 0);
     entry.made = Grid{box, *tables, {}};
@@ -155,7 +155,8 @@ Result<void> IndirectStore::put(gpu::Uploader& uploader, std::uint32_t island,
     old->second.put = true;
     if (!chunk.changed) return {};
   }
-  const Result<gpu::ArenaRange> range = allocate(static_cast<std::uint32_t>(chunk.texels.size()));
+  const Result<gpu::ArenaRange> range =
+      allocate(uploader, static_cast<std::uint32_t>(chunk.texels.size()));
   if (!range) return range.error();
   if (old != grid.chunks.end()) free(old->second.range);
   grid.chunks[key] = {*range};

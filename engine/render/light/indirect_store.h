@@ -83,7 +83,7 @@ class IndirectStore {
     Grid& target() { return made ? *made : *shown; }
   };
   IndirectStore(gpu::Device& device, MemoryBudget& budget, std::uint32_t texels);
-  Result<gpu::ArenaRange> allocate(std::uint32_t texels);
+  Result<gpu::ArenaRange> allocate(gpu::Uploader& uploader, std::uint32_t texels);
   void free(gpu::ArenaRange range);
   void free(std::optional<Grid>& grid);
   void write(gpu::Uploader& uploader, std::uint32_t texel, std::span<const glm::uvec4> values);

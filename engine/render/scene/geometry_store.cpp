@@ -79,9 +79,9 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
   SKERRY_ASSERT(!quads.empty() && quads.size() == section.range_end[shared::kRangeCount - 1]);
   const auto wanted = static_cast<std::uint32_t>(quads.size());
   if (free_slots_.empty() && section_slots() == section_capacity_)
-    if (Result<void> grew = grow_sections(); !grew) return grew.error();
-  const Result<gpu::ArenaRange> range =
-      allocate(*device_, *budget_, {arena_, quads_, sizeof(shared::Quad), kMostQuads}, wanted);
+    if (Result<void> grew = grow_sections(uploader); !grew) return grew.error();
+  const Result<gpu::ArenaRange> range = allocate(
+      *device_, *budget_, uploader, {arena_, quads_, sizeof(shared::Quad), kMostQuads}, wanted);
   if (!range) return range.error();
   std::uint32_t slot = section_slots();
   if (!free_slots_.empty()) {
@@ -174,10 +174,10 @@ void GeometryStore::collect() {
   arena_.collect(device_->completed_value());
 }
 
-Result<void> GeometryStore::grow_sections() {
+Result<void> GeometryStore::grow_sections(gpu::Uploader& uploader) {
   const std::uint32_t next = section_capacity_ * 2;
-  if (Result<void> grew =
-          grow_buffer(*device_, *budget_, sections_, std::uint64_t{next} * sizeof(shared::Section));
+  if (Result<void> grew = grow_buffer(*device_, *budget_, uploader, sections_,
+                                      std::uint64_t{next} * sizeof(shared::Section));
       !grew)
     return grew;
   section_capacity_ = next;

@@ -104,7 +104,7 @@ class GeometryStore {
  private:
   GeometryStore(gpu::Device& device, MemoryBudget& budget, std::uint32_t arena_quads)
       : device_(&device), budget_(&budget), arena_(arena_quads) {}
-  Result<void> grow_sections();
+  Result<void> grow_sections(gpu::Uploader& uploader);
   void write_record(gpu::Uploader& uploader, std::uint32_t slot);
   void count(const shared::Section& section, std::int64_t sign);
 

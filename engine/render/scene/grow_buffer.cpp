@@ -7,7 +7,7 @@
 
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/device/resources.h"
-#include "engine/gpu/device/vk_struct.h"
+#include "engine/gpu/transfer/uploader.h"
 
 namespace skerry::render {
 
@@ -24,8 +24,8 @@ Result<gpu::Buffer> make_table(gpu::Device& device, MemoryBudget& budget, const 
   return made;
 }
 
-Result<void> grow_buffer(gpu::Device& device, MemoryBudget& budget, gpu::Buffer& buffer,
-                         std::uint64_t size_bytes) {
+Result<void> grow_buffer(gpu::Device& device, MemoryBudget& budget, gpu::Uploader& uploader,
+                         gpu::Buffer& buffer, std::uint64_t size_bytes) {
   const std::uint64_t old_bytes = buffer.size_bytes();
   budget.give_back(old_bytes);
   Result<gpu::Buffer> bigger = make_table(device, budget, buffer.name().c_str(), size_bytes,
@@ -34,26 +34,12 @@ Result<void> grow_buffer(gpu::Device& device, MemoryBudget& budget, gpu::Buffer&
     budget.take(old_bytes);
     return bigger.error();
   }
-  device.run_now([&](VkCommandBuffer commands) {
-    auto barrier = gpu::vk_struct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-    barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-    auto dependency = gpu::vk_struct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands, &dependency);
-    const VkBufferCopy region{0, 0, buffer.size_bytes()};
-    vkCmdCopyBuffer(commands, buffer.handle(), bigger->handle(), 1, &region);
-    vkCmdPipelineBarrier2(commands, &dependency);
-  });
-  buffer = *std::move(bigger);
+  uploader.replace(buffer, *std::move(bigger));
   return {};
 }
 
-Result<gpu::ArenaRange> allocate(gpu::Device& device, MemoryBudget& budget, const ArenaTable& table,
-                                 std::uint32_t count) {
+Result<gpu::ArenaRange> allocate(gpu::Device& device, MemoryBudget& budget, gpu::Uploader& uploader,
+                                 const ArenaTable& table, std::uint32_t count) {
   if (Result<gpu::ArenaRange> range = table.arena.allocate(count); range) return range;
   const std::uint64_t most =
       std::min(device.limits().max_storage_range / table.element_bytes, table.format_limit);
@@ -66,7 +52,8 @@ Result<gpu::ArenaRange> allocate(gpu::Device& device, MemoryBudget& budget, cons
         "device allows {} and memory.budget {}; lower view.distance or "
         "view.detail",
         table.buffer.name(), count, table.element_bytes, table.arena.used(), most, affordable)};
-  if (Result<void> grew = grow_buffer(device, budget, table.buffer, next * table.element_bytes);
+  if (Result<void> grew =
+          grow_buffer(device, budget, uploader, table.buffer, next * table.element_bytes);
       !grew)
     return grew.error();
   table.arena.grow(static_cast<std::uint32_t>(next));

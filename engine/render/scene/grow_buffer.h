@@ -8,7 +8,8 @@
 
 namespace skerry::gpu {
 class Device;
-}
+class Uploader;
+}  // namespace skerry::gpu
 
 namespace skerry::render {
 
@@ -25,10 +26,10 @@ inline constexpr VkBufferUsageFlags kTexelTableUsage =
 Result<gpu::Buffer> make_table(gpu::Device& device, MemoryBudget& budget, const char* name,
                                std::uint64_t size_bytes, bool texels = false);
 
-/// Puts a bigger buffer with the old one's bytes in its place. Waits for the GPU: growth is rare,
-/// and doubles. Errors, with nothing changed: as make_table.
-Result<void> grow_buffer(gpu::Device& device, MemoryBudget& budget, gpu::Buffer& buffer,
-                         std::uint64_t size_bytes);
+/// Puts a bigger buffer in a table's place; the GPU copies its bytes ahead of what the uploader
+/// sends next, and nothing waits for it. Errors, with nothing changed: as make_table.
+Result<void> grow_buffer(gpu::Device& device, MemoryBudget& budget, gpu::Uploader& uploader,
+                         gpu::Buffer& buffer, std::uint64_t size_bytes);
 
 /// A table whose elements an arena hands out.
 struct ArenaTable {
@@ -40,7 +41,7 @@ struct ArenaTable {
 
 /// Makes room for `count` more elements; the buffer doubles if need be, or takes what the budget
 /// has left. Errors: what is needed, what is in use, what to lower.
-Result<gpu::ArenaRange> allocate(gpu::Device& device, MemoryBudget& budget, const ArenaTable& table,
-                                 std::uint32_t count);
+Result<gpu::ArenaRange> allocate(gpu::Device& device, MemoryBudget& budget, gpu::Uploader& uploader,
+                                 const ArenaTable& table, std::uint32_t count);
 
 }  // namespace skerry::render

@@ -112,8 +112,9 @@ Result<void> OccupancyStore::begin_island(gpu::Uploader& uploader, std::uint32_t
 /// Gives a grid a new box of tables, with what its chunks have.
 Result<void> OccupancyStore::place(gpu::Uploader& uploader, std::uint32_t island, Grid& grid,
                                    const IslandChunks& box) {
-  Result<gpu::ArenaRange> tables = allocate(
-      *device_, *budget_, {table_arena_, tables_, kTableBytes, kMostTables}, volume(box.size));
+  Result<gpu::ArenaRange> tables =
+      allocate(*device_, *budget_, uploader, {table_arena_, tables_, kTableBytes, kMostTables},
+               volume(box.size));
   if (!tables) return tables.error();
   table_arena_.free(grid.tables, device_->next_value());
   grid.box = box;
@@ -142,8 +143,8 @@ Result<void> OccupancyStore::add(gpu::Uploader& uploader, std::uint32_t island, 
   const auto count = static_cast<std::uint32_t>(bits.words.size() / shared::kBrickWords);
   if (box->size != grid.box.size)
     if (Result<void> placed = place(uploader, island, grid, *box); !placed) return placed;
-  const Result<gpu::ArenaRange> bricks =
-      allocate(*device_, *budget_, {brick_arena_, words_, kBrickBytes, shared::kMaxBricks}, count);
+  const Result<gpu::ArenaRange> bricks = allocate(
+      *device_, *budget_, uploader, {brick_arena_, words_, kBrickBytes, shared::kMaxBricks}, count);
   if (!bricks) return bricks.error();
   Chunk made{*bricks, {bits.table.begin(), bits.table.end()}};
   if (bits.full) made.table.assign(shared::kBricksPerChunk, shared::kBrickFull);
