@@ -14,17 +14,13 @@ float texture_level(vec2 uv) {
   return 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-12));
 }
 
-// The last level of a texture that has a shape: of 2x2 texels. The filter finds the same share of it covered as of all before; of a single texel it
-// finds all or nothing.
-const float kLastShape = log2(kTextureEdge) - 1.0;
-
 // @param whole the quad is opaque: its texture says nothing.
 void discard_uncovered(uint surface, bool whole) {
   Material material = materials[surface_block(surface)];
   uint face = surface_face(surface);
   uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
   vec2 uv = face >= 6u ? plant_uv(in_uv) : in_uv;
-  float alpha = textureLod(block_textures, vec3(uv, float(layer)), kFinestCoverage ? 0.0 : min(texture_level(uv), kLastShape)).a;
+  float alpha = textureLod(block_textures, vec3(uv, float(layer)), kFinestCoverage ? 0.0 : texture_level(uv)).a;
   // Leaves are seen from the front: whether their backs are drawn must not depend on which ranges of a section are culled.
   bool behind = face < kFaceCount && !gl_FrontFacing;
   if (behind || (!whole && alpha < 0.5)) discard;
