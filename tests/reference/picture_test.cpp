@@ -167,9 +167,10 @@ TEST(ReferenceDevelop, BlackStaysBlackAndGreyTakesTheCurve) {
   measure::Picture picture{3, 1, {glm::vec3(0.0f), glm::vec3(0.25f), glm::vec3(1e9f)}};
   const std::vector<std::uint8_t> out = develop(picture, -2.0);
   ASSERT_EQ(out.size(), 12u);
-  // 1 through the curve: 1.0245786 / 1.654761 = 0.61917, in sRGB 0.80898, of 255: 206.
+  // 1 is raised to 1 + 2 / 401, through the curve: 1.034701 / 1.666758 = 0.62079, in sRGB 0.80993,
+  // of 255: 206.53.
   // The brightest is 12 through the curve: 144.29494 / 147.09047 = 0.98099, in sRGB 0.99160: 253.
-  const std::vector<std::uint8_t> expected{0, 0, 0, 255, 206, 206, 206, 255, 253, 253, 253, 255};
+  const std::vector<std::uint8_t> expected{0, 0, 0, 255, 207, 207, 207, 255, 253, 253, 253, 255};
   EXPECT_EQ(out, expected);
 }
 

@@ -113,16 +113,15 @@ vec3 seen_above(vec3 dir, Mirrored met, bool clouds, uvec2 pixel) {
   vec3 sky = sample_sky(sky_lut, dir, frame.sky_horizon, frame.sky_yaw);
   if (clouds) sky = past_mirrored_clouds(mirrored_clouds, sky, pixel);
   if (kMirrorWorld) return met.sky ? sky : met.radiance;
-  if (kIndirect == kIndirectOff || frame.medium_surface == 0u) return sky;
   return mirrored_about(sky_about(frame.medium_surface_place, frame.medium_surface), frame.medium_surface, dir, sky, 1.0);
 }
 
 // Whether the nearest surface is that of the water about the eye, bends what is seen through it, and the picture does not show that. Behind a second
-// surface things are seen straight.
+// surface things are seen straight, and where nothing is known of what hides the sky, as in a sealed room.
 // @param way of bend_rays.comp: 0 where the picture shows nothing. @param bent the ray; 0: none comes through.
 bool looks_out(uvec2 pixel, vec3 ray, float way, out vec3 bent) {
   bent = vec3(0.0);
-  if (kBent != kBentIntoAir) return false;
+  if (kBent != kBentIntoAir || !(kMirrorWorld || (kIndirect != kIndirectOff && frame.medium_surface != 0u))) return false;
   uint word = layer_surface(0u, ivec2(pixel));
   float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
   vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
