@@ -42,7 +42,7 @@ void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoi
   r.any = max(r.any, visibility);
 }
 
-layout(constant_id = kBentConstant) const uint kBent = 0u;  // how bend_rays.comp has been over the radiance; 0: not at all
+layout(constant_id = kBentConstant) const uint kBent = kBentIntoWater;  // how bend_rays.comp has been over the radiance
 layout(constant_id = kLitConstant) const bool kLit = false;  // lamps are; if not, their lists are not read
 
 // Walls are looked for before every light.
@@ -85,15 +85,15 @@ FaceSky sky_about(vec3 p, uint word) {
 }
 
 // What the nearest surface of a pixel mirrors of the world. Once a pixel: a march for each layer would cost as much again.
-// @param outwards what is seen through it instead, by the bent ray of an eye in water.
-Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye, bool outwards) {
+// @param outwards the ray to follow instead: what looks_out() gives. 0: none.
+Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye, vec3 outwards) {
   uint word = layer_surface(0u, ivec2(pixel));
   float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
   vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
-  vec3 shading = shading_normal(word, ray, t), dir = mirrored_ray(to_eye, shading, n);
+  vec3 dir = mirrored_ray(to_eye, shading_normal(word, ray, t), n);
   LitPoint at = LitPoint(ray * t, n, n, to_eye, 1.0, word, no_depth());
-  if (kBent == kBentIntoAir && outwards) {
-    dir = bent_into_air(-to_eye, shading, n);
+  if (kBent == kBentIntoAir && outwards != vec3(0.0)) {
+    dir = outwards;
     at.n = -n;
     at.word = word ^ kOppositeFace;
   }
@@ -116,21 +116,21 @@ vec3 seen_above(vec3 dir, Mirrored met, bool clouds, uvec2 pixel) {
   return mirrored_about(sky_about(frame.medium_surface_place, frame.medium_surface), frame.medium_surface, dir, sky, 1.0);
 }
 
-// Whether the nearest surface is that of the water about the eye, bends what is seen through it, and the picture does not show that. Behind a second
-// surface things are seen straight, and where nothing is known of what hides the sky, as in a sealed room.
-// @param way of bend_rays.comp: 0 where the picture shows nothing. @param bent the ray; 0: none comes through.
-bool looks_out(uvec2 pixel, vec3 ray, float way, out vec3 bent) {
-  bent = vec3(0.0);
-  if (kBent != kBentIntoAir || !(kMirrorWorld || (kIndirect != kIndirectOff && frame.medium_surface != 0u))) return false;
+// The ray in the air, bent by the nearest surface, if that is of the water about the eye and the picture does not show what the ray meets; else 0.
+// Behind a second surface things are seen straight, and where nothing is known of what hides the sky, as in a sealed room.
+// @param way of bend_rays.comp: 0 where the picture shows nothing.
+vec3 looks_out(uvec2 pixel, vec3 ray, float way) {
+  if (kBent != kBentIntoAir || !(kMirrorWorld || (kIndirect != kIndirectOff && frame.medium_surface != 0u))) return vec3(0.0);
   uint word = layer_surface(0u, ivec2(pixel));
   float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
   vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
-  bent = bent_into_air(normalize(ray), shading_normal(word, ray, t), n);
+  vec3 bent = bent_into_air(normalize(ray), shading_normal(word, ray, t), n);
   const uint next = min(kWaterLayers - 1u, 1u);
   uint second = layer_surface(next, ivec2(pixel));
   float far = view_distance(max(layer_depth(next, ivec2(pixel)), 1e-12), frame.near_plane);
   bool alone = second == 0u || are_one_surface(second, word, n, ray, pixel_ray(pixel + 1u), t, far);
-  return word != 0u && has_ripples(word) && surface_block(word) == frame.camera_medium && way == 0.0 && bent != vec3(0.0) && alone;
+  bool out_of_water = word != 0u && has_ripples(word) && surface_block(word) == frame.camera_medium;
+  return out_of_water && way == 0.0 && alone ? bent : vec3(0.0);
 }
 
 // The same from inside a medium: as deep as it goes, or up to what it mirrors of the world.
@@ -157,11 +157,11 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     light_in += sky_light * sky_share(depth);
   }
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
-  vec3 bent;
-  bool outwards = looks_out(pixel, ray, behind.w, bent);
-  if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye, outwards);
+  vec3 bent = looks_out(pixel, ray, behind.w);
+  bool outwards = bent != vec3(0.0);
+  if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye, bent);
   uint last_word = 0u;
-  // What has been seen so far through the air before it; of the last surface how clear that air is, what it sends, and the light let through up to it.
+  // What has been seen so far through the air before it; of the last surface how clear that air is, what it sends, and what is let through to it.
   vec3 seen = vec3(0.0), air = vec3(0.0), entered = vec3(1.0);
   float clear = 1.0;
   for (uint k = 0u; k < kWaterLayers; ++k) {
