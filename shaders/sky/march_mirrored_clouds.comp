@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Clouds that the nearest surfaces of water and glass mirror, or that an eye in water sees through its surface, one ray for each square of four pixels that shows one.
+// Clouds that the nearest surfaces of water and glass mirror, or that an eye in water sees through its surface: one ray for each square of four
+// pixels that shows one.
 // From the surface on, as the sky is mirrored: past whatever stands there. Lamps light no cloud that is mirrored. docs/conventions.md.
 #include "include/sky/cloud_ray.glsl"
 #include "include/scene/layers.glsl"

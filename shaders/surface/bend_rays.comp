@@ -1,7 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What is seen through the surface of level water, by rays that it bends: the radiance of the pixel where the picture shows the place that the bent
-// ray meets, and how far it lies from the surface [blocks]; its own pixel's and 0 where the picture does not show it. To an image of its own, since pixels look at one another: put_bent_rays.comp copies it to the radiance image. docs/decisions/0063, 0079.
+// ray meets, and how far it lies from the surface [blocks]; its own pixel's and 0 where the picture does not show it. To an image of its own, since
+// pixels look at one another: put_bent_rays.comp copies it to the radiance image. docs/decisions/0063-water-bends-what-is-seen.md,
+// docs/decisions/0079-snells-window.md.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
