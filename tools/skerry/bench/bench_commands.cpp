@@ -50,9 +50,9 @@ BenchCommands::BenchCommands(CLI::App& app)
   lights_ = add("lights", "Time sorting and shading of 64 to 16,384 lights in a scene");
   add_scene_options(*lights_, scene_);
   shade_ =
-      add("shade", "Compare the light that stays on surfaces with the reference, in 13 scenes");
+      add("shade", "Compare the light that stays on surfaces with the reference, in 14 scenes");
   add_scene_options(*shade_, scene_);
-  shade_->add_option("--only", only_, "These of the 13 scenes")->type_name("NAME");
+  shade_->add_option("--only", only_, "These of the 14 scenes")->type_name("NAME");
   frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
   add_scene_options(*frame_, scene_);
   frame_

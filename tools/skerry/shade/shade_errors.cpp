@@ -27,6 +27,7 @@ constexpr ShadeScene kScenes[] = {
         "blocks": [{"block": "stone", "from": [-12, 100, -12], "to": [12, 115, 12]},
                    {"block": "sand", "from": [-5, 101, -5], "to": [5, 101, 5]},
                    {"block": "air", "from": [-4, 102, -4], "to": [4, 115, 4]}]})"},
+    {"lake", R"({"seed": 5, "time": "11:00", "camera": [52.25, 17.5, 52.75, 225, -25]})"},
     {"under_island", R"({"seed": 7, "time": "12:00", "camera": [-9, -140, -90, 0, 40]})"},
     {"room", R"({"seed": 1, "time": "12:30", "camera": [4.5, 116.7, 4.5, 225, -8],
         "blocks": [{"block": "stone", "from": [-8, 110, -8], "to": [8, 114, 8]},
