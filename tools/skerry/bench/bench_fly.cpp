@@ -212,6 +212,23 @@ nlohmann::ordered_json allocations_of(const std::vector<Frame>& frames) {
   return rows;
 }
 
+/// How many took over twice the median of the frames about them: late ones, as against those of a
+/// second in which all frames have more to draw.
+std::size_t late_frames(const std::vector<double>& ms) {
+  constexpr std::size_t kAbout = 15;  // on each side
+  std::vector<double> about;
+  std::size_t late = 0;
+  for (std::size_t i = 0; i < ms.size(); ++i) {
+    const auto first = ms.begin() + static_cast<std::ptrdiff_t>(i - std::min(i, kAbout));
+    const auto last = ms.begin() + static_cast<std::ptrdiff_t>(std::min(i + kAbout + 1, ms.size()));
+    about.assign(first, last);
+    const auto middle = about.begin() + std::ssize(about) / 2;
+    std::nth_element(about.begin(), middle, about.end());
+    late += ms[i] > 2.0 * *middle ? 1 : 0;
+  }
+  return late;
+}
+
 void add_numbers(nlohmann::ordered_json& row, const std::vector<Frame>& frames) {
   std::vector<double> ms, cpu_ms;
   std::uint64_t world_bytes = 0;
@@ -233,6 +250,7 @@ void add_numbers(nlohmann::ordered_json& row, const std::vector<Frame>& frames) 
   row["ms_p99"] = spread.p99;
   row["ms_max"] = spread.max;
   row["frames_over_2x"] = spread.over_twice;
+  row["frames_late"] = late_frames(ms);
   row["cpu_ms_median"] = spread_of(std::move(cpu_ms)).median;
   row["programs_made"] = programs;
   row["allocations"] = allocations;
@@ -246,15 +264,17 @@ void print(const nlohmann::ordered_json& row, std::uint64_t chunks_made) {
   const auto count = [&](const char* key) { return row.at(key).get<std::uint64_t>(); };
   fmt::print(
       "{} | {}x{} | {:.0f} blocks/s for {:.0f} s | {} frames | median {:.2f} ms, p99 {:.2f}, "
-      "max {:.1f} | {} over twice the median | CPU {:.2f} ms | {} programs made | {} allocations, "
+      "max {:.1f} | {} over twice the median, {} over twice that of 31 about them | CPU {:.2f} ms "
+      "| {} programs made | {} allocations, "
       "{} of them in "
       "the second half | world {:.0f} MiB at most, {:.1f}% of its quads' room in holes | {} | {} "
       "chunks made\n",
       row.at("name").get<std::string>(), row.at("size")[0].get<int>(), row.at("size")[1].get<int>(),
       number("speed"), number("seconds"), count("frames"), number("ms_median"), number("ms_p99"),
-      number("ms_max"), count("frames_over_2x"), number("cpu_ms_median"), count("programs_made"),
-      count("allocations"), count("allocations_second_half"), number("world_bytes") / (1 << 20),
-      100.0 * number("arena_holes"), row.at("device").get<std::string>(), chunks_made);
+      number("ms_max"), count("frames_over_2x"), count("frames_late"), number("cpu_ms_median"),
+      count("programs_made"), count("allocations"), count("allocations_second_half"),
+      number("world_bytes") / (1 << 20), 100.0 * number("arena_holes"),
+      row.at("device").get<std::string>(), chunks_made);
 }
 
 std::string name_of(const game::SceneOptions& scene) {
