@@ -17,7 +17,7 @@ __extension__ using Int128 = __int128;
 constexpr double kUnitsPerBlock = 65536.0;
 constexpr int kAxisBits = 52;      // axes are rounded to multiples of 2^-52 for exact products
 constexpr int kSnapDivisor = 16;   // a snap step is this part of the map's width
-constexpr double kEdgeTexels = 4;  // spare texels for bilinear comparison
+constexpr double kEdgeTexels = 8;  // spare ones: of the narrowest filter, and four more
 
 using IntAxis = std::array<std::int64_t, 3>;
 

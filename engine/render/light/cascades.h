@@ -25,8 +25,8 @@ struct CascadeInput {
   double far_blocks = 1000.0;           ///< radius of the last cascade: the view distance
   double caster_reach_blocks = 2512.0;  ///< how far towards the light beyond a cascade's sphere
                                         ///< something may stand and still cast
-  double filter_blocks =
-      0.25;  ///< how far the shadow filter and the normal offset reach from the shaded point
+  /// How far the widest shadow filter reaches from the shaded point; some texels are spared beyond.
+  double filter_blocks = 0.25;
   int map_size = 2048;  ///< texels along an edge, 64..16384
   double split = 0.98;  ///< see cascade_radii
   int count =

@@ -71,8 +71,7 @@ CascadeInput cascade_input(const FrameInput& input, const RenderSettings& settin
   in.near_blocks = 1.0;
   in.far_blocks = input.reach_blocks;
   in.caster_reach_blocks = caster_reach(input);
-  in.filter_blocks = 2.0 * static_cast<double>(shadow_blur(input, settings)) +
-                     8.0 * input.reach_blocks / settings.shadow_size;
+  in.filter_blocks = 2.0 * static_cast<double>(shadow_blur(input, settings));
   in.map_size = settings.shadow_size;
   in.count = settings.shadow_cascades;
   in.split = settings.shadow_split;

@@ -157,8 +157,7 @@ TEST_F(SunShadows, ACubesShadowLiesWhereTheGeometrySaysAndTouchesItsBase) {
   EXPECT_GT(dark_seen, 20000);
   EXPECT_GT(at_base, 300) << "pixels within a tenth of a block of the cube's foot were looked at";
   CascadeInput in;
-  in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_blur) +
-                     8.0 * FrameInput{}.reach_blocks / settings.shadow_size;
+  in.filter_blocks = 2.0 * static_cast<double>(settings.shadow_blur);
   EXPECT_LE(static_cast<double>(make_cascades(in)[0].texel_blocks), texel);
 }
 
