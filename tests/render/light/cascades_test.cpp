@@ -140,7 +140,7 @@ TEST(Cascades, CoverEveryPointWithinTheirRadiusWithRoomForTheFilter) {
       for (int i = 0; i < 50; ++i) {
         const double r = c.radius * (i < 25 ? 1.0 : random.uniform(0, 1));
         const glm::dvec3 p = clip(c.clip_from_world, random.direction() * r);
-        const double margin = 2.0 * (in.filter_blocks / c.texel_blocks + 3.9) / in.map_size;
+        const double margin = 2.0 * (in.filter_blocks / c.texel_blocks + 7.9) / in.map_size;
         EXPECT_LT(std::abs(p.x), 1.0 - margin);
         EXPECT_LT(std::abs(p.y), 1.0 - margin);
         EXPECT_GT(p.z, 0.0);
