@@ -21,8 +21,8 @@ FRAME = {"aa": "edge"}
 STILL = {"view.detail": 1024, "aa.samples": 16, "shadow.size": 4096, "shadow.samples": 8,
          "shadow.taps": 4, "lights.shadows": "all"}
 LONG = STILL | {"view.detail": 4096, "shadow.size": 8192, "shadow.samples": 64}
-# From up there nothing is near: the maps are shared out for what is far.
 WAYS = {"frame": FRAME, "still": STILL, "long": LONG}
+# From up there nothing is near: the maps are shared out for what is far.
 LONG_OF = {"high_altitude": LONG | {"shadow.split": 0.75}}
 
 

@@ -52,7 +52,7 @@ BenchCommands::BenchCommands(CLI::App& app)
   shade_ =
       add("shade", "Compare the light that stays on surfaces with the reference, in 14 scenes");
   add_scene_options(*shade_, scene_);
-  shade_->add_option("--only", only_, "These of the 14 scenes")->type_name("NAME");
+  shade_->add_option("--only", only_, "These of the scenes")->type_name("NAME");
   frame_ = add("frame", "Time whole frames of a scene with a slowly turning camera");
   add_scene_options(*frame_, scene_);
   frame_
