@@ -17,9 +17,10 @@ constexpr double kMostForBlends = 0.75;
 
 }  // namespace
 
-/// How near a section of each level may come before its voxels show [blocks]: what is made at full
-/// detail is drawn so, and beyond that a level's surface may be off by view.error pixels.
-std::vector<double> SceneView::nearest_of_levels(const render::Camera& camera) const {
+/// How near an island's sections of each level may come before their voxels show [blocks]: what is
+/// made at full detail is drawn so, and beyond that a surface may be off by view.error pixels.
+std::vector<double> SceneView::nearest_of_levels(const render::Camera& camera,
+                                                 const world::IslandSpec& spec) const {
   // A surface is off by a quarter of a voxel's edge in the mean.
   constexpr double kShareOfVoxel = 0.25;
   const double pixels_a_block_away = 0.5 * static_cast<double>(picture_rows_) *
@@ -28,8 +29,9 @@ std::vector<double> SceneView::nearest_of_levels(const render::Camera& camera) c
   std::vector<double> nearest{0.0};
   for (int level = 1; level < world::kLevelCount; ++level) {
     const double voxel = std::ldexp(1.0, level);
-    nearest.push_back(std::max(static_cast<double>(settings_.view_detail) * 0.5 * voxel,
-                               kShareOfVoxel * voxel * pixels_a_block_away / settings_.view_error));
+    nearest.push_back(
+        std::max(world::level_from(spec, level, static_cast<double>(settings_.view_detail)),
+                 kShareOfVoxel * voxel * pixels_a_block_away / settings_.view_error));
   }
   return nearest;
 }
@@ -69,7 +71,11 @@ void SceneView::choose_levels(const render::Camera& camera, double world_time_s,
 /// Decides at which level each section of the islands is drawn that are there at several.
 void SceneView::choose_cuts(const render::Camera& camera, double world_time_s, bool keep) {
   const world::IslandPoses poses = world_->poses(world_time_s);
-  SectionCuts::View view{.nearest = nearest_of_levels(camera), .keep = keep};
+  SectionCuts::View view{.keep = keep};
+  view.nearest_of = [&](std::uint64_t id) {
+    const auto row = near_slots_.lower_bound({id, INT32_MIN});
+    return nearest_of_levels(camera, islands_[row->second].spec);
+  };
   view.camera_in = [&](std::uint64_t id) {
     const auto row = near_slots_.lower_bound({id, INT32_MIN});
     const world::Pose pose = poses.of(islands_[row->second].spec);

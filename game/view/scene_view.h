@@ -160,7 +160,8 @@ class SceneView {
   void blend_section(ResidentSection& section, std::uint32_t blend);
   void close_section(const world::SectionKey& key, ResidentSection& section, std::uint8_t seams);
   void forget_blends();
-  std::vector<double> nearest_of_levels(const render::Camera& camera) const;
+  std::vector<double> nearest_of_levels(const render::Camera& camera,
+                                        const world::IslandSpec& spec) const;
   Result<std::uint32_t> island_slot(const world::SectionKey& key);
   void place_islands(double world_time_s);
   std::vector<PlacedIsland> placed_islands(const render::FixedPos& camera) const;

@@ -21,8 +21,9 @@ void SectionCuts::remove(const world::SectionKey& key) {
 void SectionCuts::cut(std::uint64_t id, Island& island, const glm::dvec3& camera, const View& view,
                       const Show& show) {
   island.camera = camera;
-  island.nearest = view.nearest;
-  for (const world::SectionTree::Change& change : island.tree.cut(camera, view.nearest, view.keep))
+  island.nearest = view.nearest_of(id);
+  for (const world::SectionTree::Change& change :
+       island.tree.cut(camera, island.nearest, view.keep))
     show({id, change.section.chunk, change.section.level}, change.drawn, change.seams);
 }
 
@@ -48,7 +49,7 @@ void SectionCuts::choose(const View& view, const Show& show) {
       cut(id, island, camera, view, show);
       continue;
     }
-    const bool other = island.nearest != view.nearest;
+    const bool other = island.nearest != view.nearest_of(id);
     const double by =
         glm::length(camera - island.camera) - std::max(island.tree.slack(), kLeastMove);
     if (other || by > most.by)

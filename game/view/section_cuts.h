@@ -22,8 +22,8 @@ class SectionCuts {
 
   /// What choose() goes by.
   struct View {
-    /// How near a section of each level may come [blocks].
-    std::vector<double> nearest = {};
+    /// Of an island: how near a section of each level may come [blocks].
+    std::function<std::vector<double>(std::uint64_t island)> nearest_of = {};
     /// Of an island: the camera in the axes of its lattice [blocks].
     std::function<glm::dvec3(std::uint64_t island)> camera_in = {};
     /// Levels that wait to become resident, as a whole or in part.

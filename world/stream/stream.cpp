@@ -20,10 +20,10 @@ using Phase = StreamSlot::Phase;
 constexpr double kHysteresis = 1.05;
 
 // The level an island keeps or takes, given the one it has.
-int level_with_hysteresis(int level, double distance, double detail) {
-  const int nearer = level_at(distance / kHysteresis, detail);
-  const int further = level_at(distance * kHysteresis, detail);
-  return nearer <= level && level <= further ? level : level_at(distance, detail);
+int level_with_hysteresis(const IslandSpec& spec, int level, double distance, double detail) {
+  const int nearer = island_level(spec, distance / kHysteresis, detail);
+  const int further = island_level(spec, distance * kHysteresis, detail);
+  return nearer <= level && level <= further ? level : island_level(spec, distance, detail);
 }
 
 // The first of the levels past the last one of VoxelSource at which an island is as at `level`.
@@ -59,12 +59,21 @@ std::vector<IVec3> chunks_showing(const EditedBox& box, int level) {
 
 }  // namespace
 
-int level_at(double distance_blocks, double detail_distance_blocks) {
-  int level = 0;
-  double limit = detail_distance_blocks;
+int island_level(const IslandSpec& spec, double distance_blocks, double detail_distance_blocks) {
   constexpr int kLast = kLevelCount + kFarLevelCount - 1;
-  for (; level < kLast && distance_blocks >= limit; limit *= 2.0) ++level;
+  int level = 0;
+  for (int next = 1; next <= kLast; ++next)
+    if (distance_blocks >= level_from(spec, next, detail_distance_blocks)) level = next;
   return level;
+}
+
+double level_from(const IslandSpec& spec, int level, double detail_distance_blocks) {
+  // The bounding sphere of an islet, whose outline is 12 blocks about, has 52: room for trees.
+  constexpr double kLarge = 85.0, kMostLonger = 2.0;
+  const double limit = std::ldexp(detail_distance_blocks, level - 1);
+  if (level >= kLevelCount) return limit;
+  const double share = kLarge / spec.bounding_radius;
+  return limit * std::clamp(share * share, 1.0, kMostLonger);
 }
 
 Streamer::Streamer(World& world, Jobs& jobs, StreamOf made)
@@ -214,17 +223,18 @@ namespace {
 constexpr double kFarEndBeyond = 1.25;
 
 /// Blocks by which the distance of an island may change without a change of what is wanted of it.
-double slack_of(double distance, double radius, const StreamSettings& settings) {
+double slack_of(const IslandSpec& spec, double distance, const StreamSettings& settings) {
   double slack = std::min(std::abs(distance - settings.view_distance_blocks),
                           std::abs(distance - settings.view_distance_blocks * kHysteresis));
-  double limit = settings.detail_distance_blocks;
-  for (int level = 1; level < kLevelCount + kFarLevelCount; ++level, limit *= 2.0)
+  const auto stay_clear = [&slack](double of, double limit) {
     for (const double at : {limit / kHysteresis, limit, limit * kHysteresis})
-      slack = std::min(slack, std::abs(distance - at));
-  limit = settings.detail_distance_blocks * kFarEndBeyond;
-  for (int level = 1; settings.far_ends && level < kLevelCount; ++level, limit *= 2.0)
-    for (const double at : {limit / kHysteresis, limit, limit * kHysteresis})
-      slack = std::min(slack, std::abs(distance + 2.0 * radius - at));
+      slack = std::min(slack, std::abs(of - at));
+  };
+  for (int level = 1; level < kLevelCount + kFarLevelCount; ++level)
+    stay_clear(distance, level_from(spec, level, settings.detail_distance_blocks));
+  for (int level = 1; settings.far_ends && level < kLevelCount; ++level)
+    stay_clear(distance + 2.0 * spec.bounding_radius,
+               level_from(spec, level, settings.detail_distance_blocks) * kFarEndBeyond);
   constexpr double kRounding = 0.01;
   return slack - kRounding;
 }
@@ -250,9 +260,8 @@ void Streamer::State::place_islands(const StreamView& view, const StreamSettings
     if (!all && !busy && around.travelled < candidate.due) continue;
     const Near near = near_of(candidate.spec, view, poses);
     const bool steered = poses.is_off_course(candidate.spec.id);
-    candidate.due = steered ? 0.0
-                            : around.travelled +
-                                  slack_of(near.distance, candidate.spec.bounding_radius, settings);
+    candidate.due =
+        steered ? 0.0 : around.travelled + slack_of(candidate.spec, near.distance, settings);
     if (near.distance <= limit)
       place_island(candidate, near, view, settings, voxels_unused);
     else if (candidate.island)
@@ -284,7 +293,8 @@ void Streamer::State::place_island(Candidate& candidate, const Near& near, const
   island.camera = lattice_from_world * difference_blocks(view.camera, near.pose.origin);
   island.forward = lattice_from_world * view.forward;
   if (is_new) {
-    const int level = level_of(spec, level_at(near.distance, settings.detail_distance_blocks));
+    const int level =
+        level_of(spec, island_level(spec, near.distance, settings.detail_distance_blocks));
     // Unless the camera is among its rocks, the island is there as a whole at first.
     const bool coarse_first =
         level < kLevelCount && near.distance > 0.0 && world.is_as_generated(spec.id);
@@ -294,7 +304,8 @@ void Streamer::State::place_island(Candidate& candidate, const Near& near, const
     return;
   }
   const int had = island.target().level;
-  const int wanted = level_with_hysteresis(had, near.distance, settings.detail_distance_blocks);
+  const int wanted =
+      level_with_hysteresis(spec, had, near.distance, settings.detail_distance_blocks);
   const bool same =
       wanted == had || (wanted >= kLevelCount && one_section_level(spec, wanted) == had);
   const int level = same ? had : level_of(spec, wanted);
@@ -310,9 +321,10 @@ void Streamer::State::change_far_end(StreamIsland& island, const StreamSettings&
   const double end = (island.distance + 2.0 * island.spec.bounding_radius) / kFarEndBeyond;
   const bool none = !settings.far_ends || island.target().far();
   const int had = island.far_end;
-  island.far_end = none ? 0
-                        : std::min(kLevelCount - 1, level_with_hysteresis(
-                                                        had, end, settings.detail_distance_blocks));
+  island.far_end =
+      none ? 0
+           : std::min(kLevelCount - 1, level_with_hysteresis(island.spec, had, end,
+                                                             settings.detail_distance_blocks));
   for (auto entry = island.beyond.begin(); entry != island.beyond.end();) {
     const bool wanted = island.wants_beyond(entry->first);
     if (!wanted) remove_level(island.spec.id, entry->second, removed);

@@ -63,7 +63,7 @@ struct StreamView {
 
 struct StreamSettings {
   double view_distance_blocks = 1000.0;
-  double detail_distance_blocks = 192.0;
+  double detail_distance_blocks = 192.0;  ///< where level 1 begins, see level_from
   /// Islands that reach across levels have those that their far ends want, too, so that each of
   /// their sections can be drawn at a level of its own (section_tree.h).
   bool far_ends = false;
@@ -73,9 +73,16 @@ struct StreamSettings {
 inline constexpr int kFarLevelCount = 3;
 
 /// An island's level of detail by the distance [blocks] from the camera to its bounding sphere
-/// (negative inside): 0 within the detail distance, one more each time the distance doubles, up to
+/// (negative inside): the last one whose level_from() is not beyond it, up to
 /// kLevelCount + kFarLevelCount - 1.
-int level_at(double distance_blocks, double detail_distance_blocks);
+int island_level(const IslandSpec& spec, double distance_blocks, double detail_distance_blocks);
+
+/// The distance [blocks] from which on an island has a level or a coarser one: the detail distance
+/// for level 1, twice as much for each further one. Small islands keep each level up to twice as
+/// far: more of what is seen of them is outline, and they have few faces. Far sections begin where
+/// those of all islands do; their voxels follow an island's size (far_voxel_log2).
+/// @param level 1 or more.
+double level_from(const IslandSpec& spec, int level, double detail_distance_blocks);
 
 /// What a streamer makes of chunks.
 enum class StreamOf : std::uint8_t { kMeshes, kMeshesAndOccupancy };

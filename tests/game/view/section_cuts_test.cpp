@@ -42,7 +42,9 @@ class SectionCutsTest : public testing::Test {
   }
 
   SectionCuts cuts_;
-  SectionCuts::View view_{.nearest = {0.0, 100.0, 200.0, 400.0, 800.0}};
+  SectionCuts::View view_{.nearest_of = [](std::uint64_t) {
+    return std::vector{0.0, 100.0, 200.0, 400.0, 800.0};
+  }};
   std::map<SectionKey, bool> shown_;
   int calls_ = 0;
 };
@@ -54,6 +56,15 @@ TEST_F(SectionCutsTest, DrawsWhatIsNearFine) {
   EXPECT_FALSE(is_fine(3));
   choose(2000.0);
   EXPECT_EQ(calls_, 0) << "nothing has changed";
+}
+
+TEST_F(SectionCutsTest, GivesEachIslandItsOwnLimits) {
+  view_.nearest_of = [](std::uint64_t island) {
+    return std::vector{0.0, island == 3 ? 2000.0 : 100.0, 2000.0, 4000.0, 8000.0};
+  };
+  choose(2000.0);
+  EXPECT_FALSE(is_fine(1));
+  EXPECT_TRUE(is_fine(3)) << "1,000 blocks away";
 }
 
 TEST_F(SectionCutsTest, CutsOneIslandACallWhileTheCameraMoves) {
