@@ -255,8 +255,6 @@ MUTANTS = (
     Mutant("detail_ends_early", "coarser levels begin a quarter nearer", "world/stream/stream.cpp",
            "std::ldexp(detail_distance_blocks, level - 1)", "std::ldexp(detail_distance_blocks * 0.75, level - 1)",
            "turned_islands overhead narrow_view"),
-    Mutant("islets_coarse", "far islets are as coarse as large islands", "world/stream/stream.cpp",
-           "kMostLonger = 2.0;", "kMostLonger = 1.0;", "day tropical"),
     Mutant("view_one_percent_wider", "the field of view is 1% too wide", "engine/render/frame/camera.cpp",
            "view.tan_half_x = static_cast<float>(tan_x);", "view.tan_half_x = static_cast<float>(tan_x * 1.01);",
            "overhead day"),
