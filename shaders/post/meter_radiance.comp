@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The meter. First the histogram of the luminance of scene radiance, black left out: one pixel of each cell of stride x stride, at a place in it
-// that looks random and is always the same, from the image of radiance or from what shading kept of pixels without one; integer counts: no order of work groups shows. Then, in one work group with a thread a bin, an
+// that looks random and is always the same, from the image of radiance or from what shading kept; integer counts: no order of work groups shows. Then, in one work group with a thread a bin, an
 // exposure from the histogram: mean of log2 luminance without the darkest and the brightest pixels; sums run in a fixed order.
 // Last, if it is asked for, a debug view over the lower third of the picture: the histogram by log2 luminance from left to right. White bars
 // count, grey ones are passed over. Blue lines: where the limits lie; yellow: what is metered; red: what the picture is exposed for.
@@ -15,7 +15,7 @@ layout(local_size_x = kMeterGroup, local_size_y = kMeterGroup) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(binding = kRadianceBinding, rgba16f) readonly uniform image2D radiance;
-layout(binding = kMeteredBinding, r32f) readonly uniform image2D metered;  // luminance of pixels whose radiance is not kept
+layout(binding = kMeteredBinding, r32f) readonly uniform image2D metered;  // their luminance
 layout(scalar, binding = kHistogramBinding) buffer Histogram { uint counts[kHistogramBins]; };
 layout(scalar, binding = kExposureBinding) buffer Chosen { Exposure exposure; };
 layout(binding = kPictureBinding, rgba8) uniform image2D picture;  // of the debug view
@@ -35,8 +35,7 @@ void fill_histogram() {
   uvec2 cell = gl_GlobalInvocationID.xy;
   if (all(lessThan(cell * stride, frame.picture_size))) {
     uvec2 pixel = metered_pixel(cell, stride, frame.picture_size);
-    float y = exact_luminance(imageLoad(radiance, ivec2(pixel)).rgb);
-    if (kFromCells && !in_area(pixel, frame.radiance_area)) y = imageLoad(metered, ivec2(cell)).r;
+    float y = kFromCells ? imageLoad(metered, ivec2(cell)).r : exact_luminance(imageLoad(radiance, ivec2(pixel)).rgb);
     if (counts_as_light(y)) atomicAdd(here[bin_of(y)], 1u);
   }
   barrier();

@@ -93,7 +93,8 @@ SHARED_CONST uint kIndirectBinding = 69u;  // texels of shared/indirect.h
 
 // Light at fewer pixels than are drawn.
 SHARED_CONST uint kSamplesBinding = 70u;  // of light, at the points of a grid
-// TileDispatch[2], see choose_samples.comp, then pixels: x in bits 0-15, y in bits 16-31.
+// TileDispatch[kSampleLists], see choose_samples.comp, then pixels: x in bits 0-15, y in bits
+// 16-31.
 SHARED_CONST uint kListedPixelsBinding = 71u;
 
 SHARED_CONST uint kMediaLightBinding = 72u;  // see find_media_light.comp
@@ -136,6 +137,8 @@ SHARED_CONST uint kTileShaftsBinding = 91u;  // TileShafts[], of 8x8 tiles
 SHARED_CONST uint kBentLightBinding = 92u;  // see bend_rays.comp
 
 SHARED_CONST uint kGlassMapsBinding = 93u;  // see sum_glass.frag
+
+SHARED_CONST uint kLayerTilesBinding = 94u;  // TileDispatch[] of tiles that show water or glass
 
 SHARED_END
 #endif

@@ -118,6 +118,11 @@ SHARED_CONST uint kTileRow =
 
 SHARED_CONST uint kChooseGroup = 16u;  // invocations that choose_samples.comp has for a tile
 
+// Lists of pixels whose light is worked out: those that ask no light and those that ask some; then,
+// without pixels of their own, the same for programs that keep radiance.
+SHARED_CONST uint kSampleLists = 4u;
+SHARED_CONST uint kKeepingLists = 2u;  // the first of the latter
+
 // One kind's tiles: arguments of vkCmdDispatchIndirect, then how many tiles they are for.
 struct TileDispatch {
   uint groups_x;

@@ -21,7 +21,7 @@ layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
 layout(binding = kSamplesBinding, rgba32ui) uniform uimage2D samples;  // at the grid's points
 // Of pixels that ask no light, and of those that ask some: the former from the beginning, the latter from the end.
-layout(scalar, binding = kListedPixelsBinding) buffer Pixels { TileDispatch listed[2]; uint pixels[]; };
+layout(scalar, binding = kListedPixelsBinding) buffer Pixels { TileDispatch listed[kSampleLists]; uint pixels[]; };
 layout(scalar, binding = kLightGridBinding) uniform Grid { ClusterGrid grid; };
 layout(scalar, binding = kClustersBinding) readonly buffer Clusters { Cluster clusters[]; };
 

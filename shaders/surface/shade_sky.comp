@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Sky: the pixels that show it, by tiles, or all of them in a frame without geometry. Where neither stars nor discs can be seen it has no detail,
-// and may be worked out at every fourth pixel of a row (docs/decisions/0030-light-at-fewer-pixels.md). docs/conventions.md.
+// Sky: the pixels that show it, by tiles, or all of them in a frame without geometry. In tiles without stars and discs it has no detail, and may be
+// worked out at every fourth pixel of a row (docs/decisions/0030-light-at-fewer-pixels.md). docs/conventions.md.
 #include "include/frame/common.glsl"
 #include "shared/sky.h"
 #include "shared/bindings.h"

@@ -162,7 +162,7 @@ MUTANTS = (
            "0.5 - atan(dir.y, length(dir.xz))", "0.5 + atan(dir.y, length(dir.xz))", "panorama"),
     Mutant("panorama_doubled", "a panorama is twice as bright", "engine/render/sky/panorama_sky.cpp",
            "* placement.scale", "* (2.0f * placement.scale)", "panorama"),
-    Mutant("star_missing", "one star in eight is missing", "shaders/include/sky/stars.glsl",
+    Mutant("star_missing", "one star in eight is missing", "shaders/include/sky/star_cells.glsl",
            "bool here = on_face && float(h >> 20) < share * 4096.0;",
            "bool here = on_face && float(h >> 20) < share * 4096.0 && (k & 7u) != 3u;", "stars night"),
     Mutant("discs_too_small", "sun and moon are a tenth too small", "shaders/shared/sky.h", "kDiscRadius = 3.0f *",

@@ -11,7 +11,7 @@ namespace skerry::render {
 struct MeterIn {
   gpu::ImageRef
       radiance;         ///< RGBA16F of the frame's size; nothing of it need be finite. Empty: none
-  gpu::ImageRef cells;  ///< ShadeTarget::metered: of what has no radiance. Empty: all has
+  gpu::ImageRef cells;  ///< ShadeTarget::metered, in place of radiance. Empty: none
 };
 
 /// What has been metered.

@@ -23,7 +23,7 @@ std::vector<gpu::SpecConstant> constants(const TemporalPass::In& in, bool plane)
 Tiles find_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                  gpu::ImageRef depth, const TemporalPass::In& in) {
   const std::uint32_t tiles = tile_count(scene.size);
-  Tiles out = create_tiles(graph, "find_mixed_tiles_clear", tiles, 2);
+  Tiles out = create_tiles(graph, "find_mixed_tiles_clear", tiles);
   std::vector<gpu::SpecConstant> chosen = constants(in, false);
   chosen.pop_back();
   graph.add_pass(

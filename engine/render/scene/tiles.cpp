@@ -40,18 +40,18 @@ void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uin
   commands.fill(dispatches, offset + offsetof(shared::TileDispatch, tiles), 4, 0);
 }
 
-Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles,
-                   std::uint32_t kinds) {
+Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles) {
   Tiles out;
   out.dispatches = graph.create(gpu::BufferDesc{
-      "tile dispatches", kinds * sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
-  out.lists = graph.create(gpu::BufferDesc{
-      "tile lists", std::uint64_t{kinds} * tiles * sizeof(std::uint32_t), 0, gpu::Memory::kDevice});
+      "tile dispatches", kTileKinds * sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
+  out.lists = graph.create(
+      gpu::BufferDesc{"tile lists", std::uint64_t{kTileKinds} * tiles * sizeof(std::uint32_t), 0,
+                      gpu::Memory::kDevice});
   graph.add_pass(
       clear_name,
       [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
-      [dispatches = out.dispatches, kinds](gpu::Commands& c) {
-        for (std::uint64_t kind = 0; kind < kinds; ++kind)
+      [dispatches = out.dispatches](gpu::Commands& c) {
+        for (std::uint64_t kind = 0; kind < kTileKinds; ++kind)
           clear_dispatch(c, dispatches, kind * sizeof(shared::TileDispatch));
       });
   return out;
@@ -61,7 +61,7 @@ Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
                      const char* name, const Coverage& coverage) {
   const VkExtent2D size = scene.size;
   const glm::uvec2 all = tiles_before({size.width, size.height});
-  Tiles out = create_tiles(graph, std::string(name) + "_clear", tile_count(size), 2);
+  Tiles out = create_tiles(graph, std::string(name) + "_clear", tile_count(size));
   graph.add_pass(
       name,
       [&](gpu::PassBuilder& b) {

@@ -18,7 +18,19 @@ void dispatch_items(gpu::Commands& commands, std::uint32_t items);
 
 /// kSunless: with surfaces, of which sun and moon light none; where that is looked for, kCovered is
 /// the others.
-enum class TileKind : std::uint32_t { kCovered = 0, kOpen = 1, kSunless = 2 };
+/// kDetailed: open pixels that may show a star or a disc; where that is looked for, kOpen is the
+/// others. kKept...: whose radiance is kept; where that is told apart, the first three are the
+/// others.
+enum class TileKind : std::uint32_t {
+  kCovered = 0,
+  kOpen = 1,
+  kSunless = 2,
+  kDetailed = 3,
+  kKeptCovered = 4,
+  kKeptOpen = 5,
+  kKeptDetailed = 6
+};
+constexpr std::uint32_t kTileKinds = 7;
 
 /// 8x8-pixel tiles by what they show, as indirect dispatches of one work group a tile. A tile may
 /// be of several kinds.
@@ -46,10 +58,9 @@ struct Coverage {
 /// Before tiles or pixels are listed: a shared::TileDispatch of none, at `offset` bytes.
 void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uint64_t offset);
 
-/// Lists of no tiles yet. @param clear_name of the pass that empties them. @param tiles that each
-/// list has room for.
-Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles,
-                   std::uint32_t kinds);
+/// Lists of no tiles yet, of every kind: all frames ask for the same memory. @param clear_name of
+/// the pass that empties them. @param tiles that each list has room for.
+Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles);
 
 /// Sorts tiles by whether any of their pixels has, or has not, a surface. @param name of the pass.
 Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,

@@ -7,7 +7,8 @@ namespace skerry::render {
 using gpu::Use;
 
 MediaLight MediaLight::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                           const SceneRefs& scene, const In& in, const Tiles& tiles) {
+                           const SceneRefs& scene, const In& in, const Tiles& tiles,
+                           const std::vector<OutputTiles>& covered) {
   MediaLight out;
   out.water_ = in.layers.count != 0;
   out.glass_ = static_cast<bool>(in.glass);
@@ -21,6 +22,11 @@ MediaLight MediaLight::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   out.first_layer_ = first;
   // Glass may stand anywhere before the sun, water only where it is in view.
   const Tiles& asked = out.glass_ ? tiles : in.layers.tiles;
+  std::vector<TileKind> kinds;
+  if (out.glass_)
+    for (const OutputTiles& some : covered) kinds.push_back(some.kind);
+  else
+    kinds.push_back(TileKind::kCovered);
   const gpu::ImageRef maps = out.glass_ ? in.glass : scene.block_textures;
   const gpu::ImageRef shadows = out.glass_ ? in.shadow_maps : scene.block_textures;
   graph.add_pass(
@@ -33,20 +39,21 @@ MediaLight MediaLight::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
           b.read(ref, Use::kComputeSampled);
         out.image_ = b.write(out.image_, Use::kComputeWrite);
       },
-      [scene, depth, words, first, maps, shadows, asked, image = out.image_,
+      [scene, depth, words, first, maps, shadows, asked, kinds, image = out.image_,
        program = gpu::compute(pipelines, programs::kFindMediaLight, out.with_media({}))](
           gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-                  gpu::texels<shared::kIslandsBinding>(scene.islands),
-                  gpu::storage<shared::kMaterialsBinding>(scene.materials),
-                  gpu::sampled<shared::kDepthsBinding>(depth, scene.point_sampler),
-                  gpu::sampled<shared::kLayerSurfacesBinding>(words, scene.point_sampler),
-                  gpu::sampled<shared::kLayerDepthsBinding>(first, scene.point_sampler),
-                  gpu::sampled<shared::kGlassMapsBinding>(maps, scene.point_sampler),
-                  gpu::sampled<shared::kShadowMapsBinding>(shadows, scene.point_sampler),
-                  gpu::storage<shared::kMediaLightBinding>(image),
-                  asked.bindings(TileKind::kCovered));
-        dispatch_tiles(c, asked, TileKind::kCovered);
+        for (const TileKind kind : kinds) {
+          gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                    gpu::texels<shared::kIslandsBinding>(scene.islands),
+                    gpu::storage<shared::kMaterialsBinding>(scene.materials),
+                    gpu::sampled<shared::kDepthsBinding>(depth, scene.point_sampler),
+                    gpu::sampled<shared::kLayerSurfacesBinding>(words, scene.point_sampler),
+                    gpu::sampled<shared::kLayerDepthsBinding>(first, scene.point_sampler),
+                    gpu::sampled<shared::kGlassMapsBinding>(maps, scene.point_sampler),
+                    gpu::sampled<shared::kShadowMapsBinding>(shadows, scene.point_sampler),
+                    gpu::storage<shared::kMediaLightBinding>(image), asked.bindings(kind));
+          dispatch_tiles(c, asked, kind);
+        }
       });
   return out;
 }

@@ -8,6 +8,7 @@
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/scene/tiles.h"
+#include "engine/render/surface/shade_target.h"
 #include "engine/render/surface/translucent_pass.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/constants.h"
@@ -26,9 +27,9 @@ class MediaLight {
     gpu::ImageRef glass;                    ///< maps of GlassPass; empty: glass takes no light
     gpu::ImageRef shadow_maps;              ///< that those belong to
   };
-  /// @param tiles of which kCovered may be asked for.
+  /// @param tiles of which those of the kinds `covered` may be asked for.
   static MediaLight add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                        const In& in, const Tiles& tiles);
+                        const In& in, const Tiles& tiles, const std::vector<OutputTiles>& covered);
 
   std::vector<gpu::SpecConstant> with_media(std::vector<gpu::SpecConstant> own) const {
     if (water_) own.push_back({shared::kUnderWaterConstant, 1});

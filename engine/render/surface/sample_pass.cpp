@@ -22,7 +22,7 @@ namespace {
 
 using gpu::Use;
 
-constexpr VkDeviceSize kDispatches = 2 * sizeof(shared::TileDispatch);
+constexpr VkDeviceSize kDispatches = shared::kSampleLists * sizeof(shared::TileDispatch);
 
 /// One of two passes: the points of a grid, then all pixels.
 struct SamplePass {
@@ -30,13 +30,15 @@ struct SamplePass {
   bool every_pixel;       ///< the second pass
   gpu::ImageRef samples;  ///< light at the grid's points
   ShadeTarget into;       ///< of the second pass
-  /// shared::TileDispatch[2] in groups of 64: of pixels that ask no light, of those that ask some;
-  /// then x | y << 16 of the first from the beginning, of the others from the end.
+  /// shared::TileDispatch[kSampleLists] in groups of 64; then x | y << 16 of pixels that ask no
+  /// light from the beginning, of the others from the end.
   gpu::BufferRef listed;
 
   std::string name(const char* what) const { return what + std::to_string(every_pixel ? 1 : step); }
   /// The second pass reads samples, and writes none: they stand in where the shader may write.
   void declare_samples(gpu::PassBuilder& b) { samples = b.write(samples, Use::kComputeWrite); }
+  /// Whether there are programs that keep radiance, and such as do not.
+  bool looks_for_layers() const { return every_pixel && into.layer_tiles; }
 };
 
 constexpr VkExtent2D points(VkExtent2D size, std::uint32_t step) {
@@ -69,13 +71,24 @@ void add_clear(gpu::FrameGraph& graph, SamplePass& pass) {
       [listed = pass.listed](gpu::Commands& c) { c.fill(listed, 0, kDispatches, 0); });
 }
 
-void add_sizing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SamplePass& pass) {
+void add_sizing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                SamplePass& pass) {
+  const bool looks = pass.looks_for_layers();
+  // In place of what is then never read.
+  const gpu::BufferRef layers = looks ? pass.into.layer_tiles : scene.frame;
   graph.add_pass(
       pass.name("size_samples_"),
-      [&](gpu::PassBuilder& b) { pass.listed = b.write(pass.listed, Use::kComputeWrite); },
-      [listed = pass.listed,
-       program = gpu::compute(pipelines, programs::kSizeSamples)](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kListedPixelsBinding>(listed));
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, layers}) b.read(ref, Use::kComputeRead);
+        pass.listed = b.write(pass.listed, Use::kComputeWrite);
+      },
+      [frame = scene.frame, layers, listed = pass.listed,
+       program =
+           gpu::compute(pipelines, programs::kSizeSamples,
+                        {{shared::kTranslucentConstant, looks ? 1u : 0u}})](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
+                  gpu::storage<shared::kLayerTilesBinding>(layers),
+                  gpu::storage<shared::kListedPixelsBinding>(listed));
         c.dispatch(1, 1, 1);
       });
 }
@@ -85,6 +98,11 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
                   const SampleIn& on, const SampledLight& light, SamplePass& pass) {
   const SurfaceReads surfaces(on.geometry);
   const ClusteredLights lights = light.lights ? *light.lights : ClusteredLights::none(scene);
+  auto programs = programs_of(pass.into, TileKind::kCovered, [&](bool keep) {
+    return gpu::compute(pipelines, programs::kChooseSamples,
+                        pass.into.with_output(choosing_constants(pass, on, light), scene, keep));
+  });
+  if (!pass.every_pixel) programs.resize(1);  // it puts no pixel
   graph.add_pass(
       pass.name("choose_samples_"),
       [&](gpu::PassBuilder& b) {
@@ -100,21 +118,22 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
         pass.into.declare(b, scene);
       },
       [scene, surfaces, pass, lights, tiles = on.tiles,
-       program = gpu::compute(pipelines, programs::kChooseSamples,
-                              pass.into.with_output(choosing_constants(pass, on, light), scene))](
-          gpu::Commands& c) {
-        gpu::bind(
-            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-            gpu::texels<shared::kIslandsBinding>(scene.islands),
-            gpu::storage<shared::kMaterialsBinding>(scene.materials),
-            gpu::storage<shared::kSurfacesBinding>(surfaces.words),
-            gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
-            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
-            gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats), pass.into.bindings(scene),
-            gpu::storage<shared::kSamplesBinding>(pass.samples),
-            gpu::storage<shared::kListedPixelsBinding>(pass.listed), lights.count_bindings(),
-            tiles.bindings(TileKind::kCovered));
-        if (pass.every_pixel) return dispatch_tiles(c, tiles, TileKind::kCovered);
+       programs = std::move(programs)](gpu::Commands& c) {
+        for (const auto& some : programs) {
+          gpu::bind(c, some.second, gpu::storage<shared::kFrameBinding>(scene.frame),
+                    gpu::texels<shared::kIslandsBinding>(scene.islands),
+                    gpu::storage<shared::kMaterialsBinding>(scene.materials),
+                    gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+                    gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+                    gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures,
+                                                                scene.block_sampler),
+                    gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+                    pass.into.bindings(scene), gpu::storage<shared::kSamplesBinding>(pass.samples),
+                    gpu::storage<shared::kListedPixelsBinding>(pass.listed),
+                    lights.count_bindings(), tiles.bindings(some.first));
+          if (pass.every_pixel) dispatch_tiles(c, tiles, some.first);
+        }
+        if (pass.every_pixel) return;
         const VkExtent2D size = points(scene.size, pass.step);
         c.dispatch(gpu::Commands::groups(size.width, shared::kChooseGroup), size.height, 1);
       });
@@ -123,7 +142,7 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
 /// @param lights those that its pixels ask; null: none.
 auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const SampleIn& on,
                      const SampledLight& light, const ClusteredLights* lights,
-                     const SamplePass& pass) {
+                     const SamplePass& pass, bool keep) {
   const bool maps{on.shadows.maps()};
   std::vector<gpu::SpecConstant> constants = with_light(
       {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(light.settings.texture_taps)},
@@ -137,7 +156,7 @@ auto shading_program(gpu::Pipelines& pipelines, const SceneRefs& scene, const Sa
                     .with_walls(lights->with_panes(std::move(constants)));
   }
   return gpu::compute(pipelines, programs::kShadeSamples,
-                      pass.into.with_output(std::move(constants), scene));
+                      pass.into.with_output(std::move(constants), scene, keep));
 }
 
 /// Works out the light of the listed pixels.
@@ -148,6 +167,20 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
   const CloudRefs clouds = clouds_before_light(scene);
   const ClusteredLights lights = light.lights ? *light.lights : ClusteredLights::none(scene);
   const gpu::ImageRef maps = on.shadows.maps();
+  using Program = decltype(shading_program(pipelines, scene, on, light, nullptr, pass, true));
+  struct Listed {
+    Program program;
+    std::uint32_t list;
+  };
+  std::vector<Listed> programs;
+  for (const bool keep : {false, true}) {
+    if (!keep && !pass.looks_for_layers()) continue;
+    const std::uint32_t first = keep && pass.looks_for_layers() ? shared::kKeepingLists : 0u;
+    programs.push_back({shading_program(pipelines, scene, on, light, nullptr, pass, keep), first});
+    if (!light.lights) continue;
+    programs.push_back(
+        {shading_program(pipelines, scene, on, light, light.lights, pass, keep), first + 1});
+  }
   graph.add_pass(
       pass.name("shade_samples_"),
       [&](gpu::PassBuilder& b) {
@@ -168,9 +201,7 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         pass.into.declare(b, scene);
       },
-      [unlit = shading_program(pipelines, scene, on, light, nullptr, pass),
-       lit = shading_program(pipelines, scene, on, light, light.lights, pass),
-       some_lit = light.lights != nullptr, scene, surfaces, walls, media = on.media, clouds, lights,
+      [programs = std::move(programs), scene, surfaces, walls, media = on.media, clouds, lights,
        maps, pass](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
@@ -193,11 +224,10 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler),
             gpu::storage<shared::kListedPixelsBinding>(pass.listed)};
-        gpu::bind(c, unlit, bindings);
-        c.dispatch_indirect(pass.listed, 0);
-        if (!some_lit) return;
-        gpu::bind(c, lit, bindings);
-        c.dispatch_indirect(pass.listed, sizeof(shared::TileDispatch));
+        for (const Listed& some : programs) {
+          gpu::bind(c, some.program, bindings);
+          c.dispatch_indirect(pass.listed, some.list * sizeof(shared::TileDispatch));
+        }
       });
 }
 
@@ -221,7 +251,7 @@ void add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneR
                         gpu::Memory::kDevice});
     add_clear(graph, pass);
     add_choosing(graph, pipelines, scene, on, light, pass);
-    add_sizing(graph, pipelines, pass);
+    add_sizing(graph, pipelines, scene, pass);
     add_shading(graph, pipelines, scene, on, light, pass);
   }
   into = pass.into;

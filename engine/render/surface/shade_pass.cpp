@@ -23,13 +23,24 @@ using gpu::Use;
 /// Pixels of a row that have one sky's two ends in common, where light is that of fewer pixels.
 constexpr std::uint32_t kSkyRun = 4;
 
-std::vector<gpu::SpecConstant> constants_of_sky(const SceneRefs& scene, const ShadeIn& in) {
-  const bool may_differ = in.sampled && in.sampled->settings.shading_tolerance > 0.0f;
-  const bool plain = may_differ && !in.stars && !in.discs && !scene.panorama;
-  const std::uint32_t run = plain ? kSkyRun : 1;
+/// Whether a sky without detail may be that of fewer pixels.
+bool sky_may_differ(const SceneRefs& scene, const ShadeIn& in) {
+  return in.sampled && in.sampled->settings.shading_tolerance > 0.0f && !scene.panorama;
+}
+
+/// Whether tiles that may show stars or discs are told apart from others.
+bool looks_for_detail(const SceneRefs& scene, const ShadeIn& in) {
+  return sky_may_differ(scene, in) && (in.stars || in.discs);
+}
+
+/// @param detail with the stars and discs that there are; else there are none in its tiles.
+std::vector<gpu::SpecConstant> constants_of_sky(const SceneRefs& scene, const ShadeIn& in,
+                                                bool detail) {
+  const bool stars = detail && in.stars, discs = detail && in.discs;
+  const std::uint32_t run = sky_may_differ(scene, in) && !stars && !discs ? kSkyRun : 1;
   std::vector<gpu::SpecConstant> constants{
-      {shared::kStarsConstant, in.stars ? 1u : 0u},
-      {shared::kDiscsConstant, in.discs ? 1u : 0u},
+      {shared::kStarsConstant, stars ? 1u : 0u},
+      {shared::kDiscsConstant, discs ? 1u : 0u},
       {shared::kRunConstant, run},
       {shared::kGroupSizeConstant, shared::kTileEdge * shared::kTileEdge / run}};
   if (scene.panorama) constants.push_back({shared::kPanoramaConstant, 1});
@@ -48,7 +59,7 @@ bool looks_for_sunless(const SceneRefs& scene, const ShadeIn& in, const ShadedFr
 Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                          const ShadedFrom& from) {
   const std::uint32_t tiles = tile_count(scene.size);
-  Tiles out = create_tiles(graph, "classify_tiles_clear", tiles, 3);
+  Tiles out = create_tiles(graph, "classify_tiles_clear", tiles);
   const SurfaceReads surfaces(from.geometry);
   const bool under_water = from.layers.count != 0;
   // In place of what is then never read.
@@ -82,6 +93,44 @@ Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
   return out;
 }
 
+/// As classify_tiles(), with kDetailed if that is looked for, and with kKept... if there are
+/// `layer_tiles`, dispatches of those that show water or glass.
+Tiles classify_shaded_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
+                            const SceneRefs& scene, const ShadeIn& in, const Geometry& geometry,
+                            gpu::BufferRef layer_tiles) {
+  const std::uint32_t tiles = tile_count(scene.size);
+  Tiles out = create_tiles(graph, "classify_tiles_clear", tiles);
+  const SurfaceReads surfaces(geometry);
+  const bool detail = looks_for_detail(scene, in);
+  // In place of what is then never read.
+  const gpu::BufferRef layers = layer_tiles ? layer_tiles : scene.frame;
+  std::vector<gpu::SpecConstant> constants{{shared::kTranslucentConstant, layer_tiles ? 1u : 0u},
+                                           {shared::kStarsConstant, detail && in.stars ? 1u : 0u},
+                                           {shared::kDiscsConstant, detail && in.discs ? 1u : 0u}};
+  graph.add_pass(
+      "classify_tiles",
+      [&](gpu::PassBuilder& b) {
+        for (const gpu::BufferRef ref : {scene.frame, scene.sky, layers})
+          b.read(ref, Use::kComputeRead);
+        surfaces.declare(b);
+        out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
+        out.lists = b.write(out.lists, Use::kComputeWrite);
+      },
+      [scene, layers, surfaces, out, tiles,
+       program = gpu::compute(pipelines, programs::kClassifyShadedTiles,
+                              surfaces.with_depth(std::move(constants)))](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::storage<shared::kSkyBinding>(scene.sky),
+                  gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+                  gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+                  gpu::storage<shared::kLayerTilesBinding>(layers),
+                  gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
+                  gpu::storage<shared::kTilesBinding>(out.lists));
+        dispatch_items(c, tiles);
+      });
+  return out;
+}
+
 /// Adds surfaces, at every pixel of their tiles.
 /// @param some_sunless whether the tiles are of classify_lit_tiles().
 void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
@@ -91,7 +140,7 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   const gpu::ImageRef maps = on.shadows.maps();
   const OccupancyReads occupancy(scene, scene.ao && scene.bodies != 0);
   const CloudRefs clouds = clouds_before_light(scene);
-  const auto program = [&](bool sunless) {
+  const auto program = [&](bool sunless, bool keep) {
     std::vector<gpu::SpecConstant> constants =
         with_light({{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
                    scene, bool{maps});
@@ -103,7 +152,7 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
     else
       constants = on.media.with_media(std::move(constants));
     return gpu::compute(pipelines, programs::kShadeSurfaces,
-                        into.with_output(std::move(constants), scene));
+                        into.with_output(std::move(constants), scene, keep));
   };
   graph.add_pass(
       "shade_surfaces",
@@ -122,8 +171,9 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         into.declare(b, scene);
       },
-      [lit = program(false), sunless = program(some_sunless), some_sunless, scene, tiles, surfaces,
-       occupancy, media = on.media, clouds, maps, into](gpu::Commands& c) {
+      [lit = programs_of(into, TileKind::kCovered, [&](bool keep) { return program(false, keep); }),
+       sunless = program(some_sunless, true), some_sunless, scene, tiles, surfaces, occupancy,
+       media = on.media, clouds, maps, into](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::texels<shared::kIslandsBinding>(scene.islands),
@@ -140,8 +190,10 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
             into.bindings(scene),
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler)};
-        gpu::bind(c, lit, bindings, tiles.bindings(TileKind::kCovered));
-        dispatch_tiles(c, tiles, TileKind::kCovered);
+        for (const auto& some : lit) {
+          gpu::bind(c, some.second, bindings, tiles.bindings(some.first));
+          dispatch_tiles(c, tiles, some.first);
+        }
         if (!some_sunless) return;
         gpu::bind(c, sunless, bindings, tiles.bindings(TileKind::kSunless));
         dispatch_tiles(c, tiles, TileKind::kSunless);
@@ -153,9 +205,18 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
                const ShadeIn& in, const SampleIn& on, ShadeTarget& into) {
   const Tiles& tiles = on.tiles;
   const SurfaceReads surfaces(on.geometry);
-  const auto sky_program =
-      gpu::compute(pipelines, programs::kShadeSky,
-                   into.with_output(surfaces.with_depth(constants_of_sky(scene, in)), scene));
+  const auto make = [&](bool detail) {
+    return [&, detail](bool keep) {
+      return gpu::compute(
+          pipelines, programs::kShadeSky,
+          into.with_output(surfaces.with_depth(constants_of_sky(scene, in, detail)), scene, keep));
+    };
+  };
+  const bool apart = looks_for_detail(scene, in);
+  auto sky = programs_of(into, TileKind::kOpen, make(!apart));
+  if (apart)
+    for (auto& some : programs_of(into, TileKind::kDetailed, make(true)))
+      sky.push_back(std::move(some));
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
@@ -166,15 +227,17 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         into.declare(b, scene);
       },
-      [sky_program, scene, tiles, surfaces, into](gpu::Commands& c) {
-        gpu::bind(c, sky_program, gpu::storage<shared::kFrameBinding>(scene.frame),
-                  gpu::storage<shared::kSkyBinding>(scene.sky),
-                  gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
-                  gpu::storage<shared::kSurfacesBinding>(surfaces.words),
-                  gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
-                  gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
-                  into.bindings(scene), tiles.bindings(TileKind::kOpen));
-        dispatch_tiles(c, tiles, TileKind::kOpen);
+      [sky = std::move(sky), scene, tiles, surfaces, into](gpu::Commands& c) {
+        for (const auto& some : sky) {
+          gpu::bind(c, some.second, gpu::storage<shared::kFrameBinding>(scene.frame),
+                    gpu::storage<shared::kSkyBinding>(scene.sky),
+                    gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+                    gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+                    gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+                    gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
+                    into.bindings(scene), tiles.bindings(some.first));
+          dispatch_tiles(c, tiles, some.first);
+        }
       });
 }
 
@@ -182,16 +245,20 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
 void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
            const ShadedFrom& from, const ShadeIn& in, ShadeTarget& into) {
   const bool some_sunless = looks_for_sunless(scene, in, from);
-  const Tiles tiles = some_sunless
-                          ? classify_lit_tiles(graph, pipelines, scene, from)
-                          : classify_tiles(graph, pipelines, scene, "classify_tiles",
-                                           {.words = from.geometry.surfaces(),
-                                            .depth = from.geometry.depth(),
-                                            .kept = from.geometry.store().depth,
-                                            .area = {0, 0, scene.size.width, scene.size.height}});
-  const MediaLight media =
-      MediaLight::add(graph, pipelines, scene,
-                      {from.geometry, from.layers, from.glass, from.shadows.maps()}, tiles);
+  if (!some_sunless && into.picture && into.radiance && from.layers.count != 0)
+    into.layer_tiles = from.layers.tiles.dispatches;
+  const Tiles tiles =
+      into.layer_tiles || looks_for_detail(scene, in)
+          ? classify_shaded_tiles(graph, pipelines, scene, in, from.geometry, into.layer_tiles)
+      : some_sunless ? classify_lit_tiles(graph, pipelines, scene, from)
+                     : classify_tiles(graph, pipelines, scene, "classify_tiles",
+                                      {.words = from.geometry.surfaces(),
+                                       .depth = from.geometry.depth(),
+                                       .kept = from.geometry.store().depth,
+                                       .area = {0, 0, scene.size.width, scene.size.height}});
+  const MediaLight media = MediaLight::add(
+      graph, pipelines, scene, {from.geometry, from.layers, from.glass, from.shadows.maps()}, tiles,
+      into.tiles_of(TileKind::kCovered));
   const SampleIn on{from.geometry, from.shadows, media, tiles};
   if (in.sampled)
     add_sample_passes(graph, pipelines, scene, on, *in.sampled, into);
@@ -203,7 +270,7 @@ void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
 /// Sky for every pixel.
 void shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                           const ShadeIn& in, ShadeTarget& into) {
-  std::vector<gpu::SpecConstant> constants = constants_of_sky(scene, in);
+  std::vector<gpu::SpecConstant> constants = constants_of_sky(scene, in, true);
   constants.push_back({shared::kSkyAloneConstant, 1});
   const auto program =
       gpu::compute(pipelines, programs::kShadeSky, into.with_output(std::move(constants), scene));

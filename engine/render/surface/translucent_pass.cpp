@@ -220,32 +220,41 @@ gpu::ImageRef bend_rays(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
   return radiance;
 }
 
-/// The picture where its radiance is another now than shading made it from.
-gpu::ImageRef refresh_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                              const SceneRefs& scene, ChangedTiles changed, const Shaded& shaded) {
-  gpu::ImageRef picture = shaded.picture();
+/// What is made of radiance as it is shaded.
+struct Made {
+  gpu::ImageRef picture, metered;
+  std::uint32_t meter_stride;
+};
+
+/// The same where radiance is another now.
+Made refresh_picture(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                     const ChangedTiles& changed, gpu::ImageRef radiance, Made made) {
+  std::vector<gpu::SpecConstant> constants;
+  if (made.metered) constants.push_back({shared::kMeterStrideConstant, made.meter_stride});
   graph.add_pass(
       "refresh_picture",
       [&](gpu::PassBuilder& b) {
         declare_tiles(b, changed.tiles);
         for (const gpu::BufferRef ref : {scene.frame, scene.exposure})
           b.read(ref, Use::kComputeRead);
-        b.read(shaded.radiance(), Use::kComputeRead);
-        picture = b.write(picture, Use::kComputeWrite);
+        b.read(radiance, Use::kComputeRead);
+        for (gpu::ImageRef* const image : {&made.picture, &made.metered})
+          if (*image) *image = b.write(*image, Use::kComputeWrite);
       },
-      [frame = scene.frame, exposure = scene.exposure, changed, radiance = shaded.radiance(),
-       picture,
-       program = gpu::compute(pipelines, programs::kRefreshPicture, with_picture({}, scene))](
-          gpu::Commands& c) {
+      [frame = scene.frame, exposure = scene.exposure, changed, radiance, made,
+       program = gpu::compute(pipelines, programs::kRefreshPicture,
+                              with_picture(std::move(constants), scene))](gpu::Commands& c) {
         for (const TileKind kind : changed.kinds) {
-          gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(frame),
-                    gpu::storage<shared::kRadianceBinding>(radiance),
-                    gpu::storage<shared::kTargetBinding>(picture),
-                    gpu::storage<shared::kExposureBinding>(exposure), changed.tiles.bindings(kind));
+          gpu::bind(
+              c, program, gpu::storage<shared::kFrameBinding>(frame),
+              gpu::storage<shared::kRadianceBinding>(radiance),
+              gpu::storage<shared::kTargetBinding>(made.picture),
+              gpu::storage<shared::kMeteredBinding>(made.metered ? made.metered : made.picture),
+              gpu::storage<shared::kExposureBinding>(exposure), changed.tiles.bindings(kind));
           dispatch_tiles(c, changed.tiles, kind);
         }
       });
-  return picture;
+  return made;
 }
 
 }  // namespace
@@ -280,8 +289,13 @@ Shaded TranslucentPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, S
           dispatch_tiles(c, tiles, kind);
         }
       });
-  if (shaded.picture())
-    shaded.picture_ = refresh_picture(graph, pipelines, scene, {tiles, kinds}, shaded);
+  if (shaded.picture()) {
+    const Made made = refresh_picture(
+        graph, pipelines, scene, {tiles, kinds}, shaded.radiance(),
+        {shaded.picture(), shaded.metered(), static_cast<std::uint32_t>(in.settings.meter.stride)});
+    shaded.picture_ = made.picture;
+    shaded.metered_ = made.metered;
+  }
   return shaded;
 }
 

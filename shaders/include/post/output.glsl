@@ -51,12 +51,11 @@ bool in_one_cell(const uint pixels) { return kMeterStride % pixels == 0u; }
 
 // Every invocation calls this once a pixel; `here` says which have one.
 void put_shown(uvec2 pixel, Shown what, bool here, inout MeterRun run) {
-  bool kept = keeps_radiance(pixel);
-  if (here && kept) imageStore(radiance, ivec2(pixel), vec4(what.radiance, 1.0));
+  if (here && keeps_radiance(pixel)) imageStore(radiance, ivec2(pixel), vec4(what.radiance, 1.0));
   if (!kToPicture) return;
   count_black(here && what.radiance == vec3(0.0), false);
   if (here) put_developed(pixel, what.encoded);
-  if (kMeterStride != 0u && here && !kept && run.pixel == pixel) {
+  if (kMeterStride != 0u && here && run.pixel == pixel) {
     run.luminance = exact_luminance(what.radiance);
     run.here = true;
   }

@@ -3,16 +3,11 @@
 #ifndef SKERRY_STARS_GLSL
 #define SKERRY_STARS_GLSL
 #include "include/sky/discs.glsl"
+#include "include/sky/star_cells.glsl"
 
-// The sphere is a cube of about equal cells (edge some 90 / kStarCells degrees), some of which hold
-// a star. Per pixel only the four nearest cells are looked at.
-const float kStarCells = 64.0;       // along a face's edge
-const float kStarShare = 0.24;       // of the cells in the middle of a face; 4,500 stars in all
+// Per pixel only the four nearest cells are looked at.
 const float kStarFlux = 6.0e-7;      // of a star of magnitude 0 [radiance * sr]
 const float kFaintestFlux = 2.5e-3;  // magnitude 6.5, over that of magnitude 0
-// A footprint of at least this radius, about one pixel wide at half height, keeps stars from
-// twinkling as they move.
-const float kStarRadiusPixels = 1.6;
 
 // Colour of a star, unit luminance: from orange through white to blue-white.
 vec3 star_colour(float t) {
@@ -24,47 +19,32 @@ vec3 star_colour(float t) {
 // Radiance of the star of one cell, if it has one, at the place `at` [cells] of a face. The star's
 // footprint has the squared radius radius2 [rad2]; metric turns offsets [cells] to squared angles.
 vec3 star_of_cell(uint face, vec2 cell, vec2 at, vec3 metric, float radius2) {
-  uint h = sky_hash(uvec3(face, uvec2(cell)));
-  uint k = (h ^ (h >> 15)) * 747796405u;
-  // Cells towards a cube's edges cover less sky and hold fewer stars: their solid angle, fitted.
-  vec2 s = (cell + 0.5) * (2.0 / kStarCells) - 1.0;
-  s *= s;
-  float share = kStarShare * (1.0 - 0.411 * (s.x + s.y) + 0.356 * s.x * s.y);
-  bool on_face = all(lessThan(abs(cell + 0.5 - 0.5 * kStarCells), vec2(0.5 * kStarCells)));
-  bool here = on_face && float(h >> 20) < share * 4096.0;
-  // Half a cell off the face's edge, beyond which the neighbours are not looked at.
-  vec2 star = cell + vec2(uvec2(k, k >> 12) & 0xfffu) * (1.0 / 4096.0);
-  vec2 d = at - clamp(star, 0.5, kStarCells - 0.5);
+  CellStar star = star_in_cell(face, cell);
+  vec2 d = at - star.place;
   float angle2 = metric.x * d.x * d.x + metric.y * d.x * d.y + metric.z * d.y * d.y;
   float w = max(0.0, 1.0 - angle2 / radius2);
   // Numbers of stars grow by a factor of 3.4 a magnitude: flux over the faintest is u^-0.75.
-  float u = (float(h & 0xfffffu) + 128.0) * (1.0 / 1048576.0);
+  float u = (float(star.look & 0xfffffu) + 128.0) * (1.0 / 1048576.0);
   float flux = kStarFlux * kFaintestFlux / sqrt(u * sqrt(u));
-  float radiance = here ? flux * w * w * 3.0 / (kSkyPi * radius2) : 0.0;
-  return star_colour(float(k >> 24) * (1.0 / 255.0)) * radiance;
+  float radiance = star.here ? flux * w * w * 3.0 / (kSkyPi * radius2) : 0.0;
+  return star_colour(float(star.colour >> 24) * (1.0 / 255.0)) * radiance;
 }
 
 // Stars of direction d in the sky's frame. @param cells 4, or 0 to skip.
 vec3 star_field(vec3 d, float pixel_angle, int cells) {
-  vec3 m = abs(d);
-  int axis = m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
-  vec3 face = axis == 0 ? d : axis == 1 ? d.yzx : d.zxy;
-  vec2 uv = face.yz / abs(face.x);
-  // Cells are even in u (1.25 - 0.25 |u|), which is near enough to equal angles and cheap.
-  vec2 at = (uv * (1.25 - 0.25 * abs(uv)) + 1.0) * (0.5 * kStarCells);
+  CubePlace place = cube_place(d);
+  vec2 uv = place.uv, at = place.at;
   vec2 per_cell = (2.0 / kStarCells) / (1.25 - 0.5 * abs(uv));
   float q = 1.0 / (1.0 + dot(uv, uv));
   vec3 metric = q * q * vec3((1.0 + uv.y * uv.y) * per_cell.x * per_cell.x,
                              -2.0 * uv.x * uv.y * per_cell.x * per_cell.y,
                              (1.0 + uv.x * uv.x) * per_cell.y * per_cell.y);
-  // The four nearest cells reach half a cell, which is 0.37 of a middle one at its narrowest.
-  float radius = min(kStarRadiusPixels * pixel_angle, 0.37 * 2.0 / (1.25 * kStarCells));
-  uint side = uint(axis) * 2u + (face.x < 0.0 ? 1u : 0u);
+  float radius = star_radius(pixel_angle);
   vec2 first = floor(at - 0.5);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < cells; ++i) {
     vec2 cell = first + vec2(float(i & 1), float(i >> 1));
-    sum += star_of_cell(side, cell, at, metric, radius * radius);
+    sum += star_of_cell(place.side, cell, at, metric, radius * radius);
   }
   return sum;
 }

@@ -20,6 +20,19 @@ world::BlockId pond(int x, int y, int z) {
   return water ? world::block::kWater : world::block::kGrass;
 }
 
+/// The same behind a wall, past which none of the water shows.
+world::BlockId pond_behind_a_wall(int x, int y, int z) {
+  if (z == 16 && y >= 0 && y < 9) return world::block::kStone;
+  return pond(x, y, z);
+}
+
+int most_apart(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  int most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(int{a[i]} - int{b[i]}));
+  return most;
+}
+
 class ShadeTargets : public RendererOnGpu {
  protected:
   const std::vector<IslandPlacement> islands_{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
@@ -34,6 +47,25 @@ class ShadeTargets : public RendererOnGpu {
     in.meter = true;
     return in;
   }
+  /// Draws the picture at once, then by an image of radiance, and compares all that comes of it.
+  void expect_one_picture(FrameInput in, int rate, bool water) {
+    const std::vector<std::uint8_t> at_once = picture_of(in, rate);
+    EXPECT_FALSE(has_pass("develop"));
+    EXPECT_EQ(has_pass("refresh_picture"), water);
+    const std::optional<float> ev = report_.metered_ev;
+    const shared::PixelStats counts = report_.pixels;
+    in.capture = true;
+    const std::vector<std::uint8_t> by_radiance = picture_of(in, rate);
+    EXPECT_TRUE(has_pass("develop"));
+    EXPECT_FALSE(has_pass("refresh_picture"));
+    // A sky of fewer pixels is mixed as it is encoded there, and as radiance here.
+    EXPECT_LE(most_apart(at_once, by_radiance), rate == 1 ? 0 : 1);
+    ASSERT_TRUE(ev.has_value());
+    ASSERT_TRUE(report_.metered_ev.has_value());
+    EXPECT_EQ(*ev, *report_.metered_ev);
+    EXPECT_EQ(counts.black, report_.pixels.black);
+    EXPECT_EQ(counts.non_finite, 0u);
+  }
   std::vector<std::uint8_t> picture_of(const FrameInput& input, int rate) {
     RenderSettings settings;
     settings.shading_rate = rate;
@@ -43,13 +75,6 @@ class ShadeTargets : public RendererOnGpu {
   }
   FrameReport report_;
 };
-
-int most_apart(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
-  EXPECT_EQ(a.size(), b.size());
-  int most = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(int{a[i]} - int{b[i]}));
-  return most;
-}
 
 TEST_F(ShadeTargets, TheWayToThePictureDoesNotShow) {
   add(pond, {0, -1, 0}, {1, 0, 1});
@@ -70,23 +95,16 @@ TEST_F(ShadeTargets, TheWayToThePictureDoesNotShow) {
       FrameInput in = view();
       in.camera = each.camera;
       in.camera_medium = each.medium;
-      const std::vector<std::uint8_t> at_once = picture_of(in, rate);
-      EXPECT_FALSE(has_pass("develop"));
-      EXPECT_EQ(has_pass("refresh_picture"), each.water);
-      const std::optional<float> ev = report_.metered_ev;
-      const shared::PixelStats counts = report_.pixels;
-      in.capture = true;
-      const std::vector<std::uint8_t> by_radiance = picture_of(in, rate);
-      EXPECT_TRUE(has_pass("develop"));
-      EXPECT_FALSE(has_pass("refresh_picture"));
-      // A sky of fewer pixels is mixed as it is encoded there, and as radiance here.
-      EXPECT_LE(most_apart(at_once, by_radiance), rate == 1 ? 0 : 1);
-      ASSERT_TRUE(ev.has_value());
-      ASSERT_TRUE(report_.metered_ev.has_value());
-      EXPECT_EQ(*ev, *report_.metered_ev);
-      EXPECT_EQ(counts.black, report_.pixels.black);
-      EXPECT_EQ(counts.non_finite, 0u);
+      expect_one_picture(in, rate, each.water);
     }
+  }
+}
+
+TEST_F(ShadeTargets, WaterThatIsHiddenKeepsNoRadianceAndDoesNotShow) {
+  add(pond_behind_a_wall, {0, -1, 0}, {1, 0, 1});
+  for (const int rate : {1, 2, 4}) {
+    SCOPED_TRACE(rate);
+    expect_one_picture(view(), rate, true);
   }
 }
 
@@ -143,7 +161,48 @@ TEST_F(ShadeTargets, ASkyOfFewerPixelsIsThatOfAll) {
       plain_skies += most > 0.0 ? 1 : 0;
     }
   }
-  EXPECT_GT(plain_skies, 6) << "with a disc or stars it is that of all, exactly";
+  EXPECT_GT(plain_skies, 6);
+}
+
+// Tiles in which none can be seen are mixed, those in which some can are not.
+TEST_F(ShadeTargets, StarsAndDiscsAreThoseOfAllPixels) {
+  add(pond, {0, -1, 0}, {1, 0, 1});
+  std::size_t bright = 0, mixed = 0;
+  for (const double fov : {3.0, 12.0, 40.0, 100.0}) {
+    for (const double yaw : {0.0, 133.0, 221.0}) {
+      for (const double pitch : {4.0, 35.0, 75.0}) {
+        if (fov > 50.0 && pitch < 60.0) continue;  // a horizon within few pixels: see above
+        SCOPED_TRACE(testing::Message() << fov << ", " << yaw << ", " << pitch);
+        FrameInput in = view();
+        in.sky = celestial_at(0.0, 0.5);
+        in.camera = camera_at({22.0, 7.0, 40.0}, yaw, pitch, fov);
+        if (yaw == 133.0 && pitch > 70.0) {
+          const glm::dvec3 moon = in.sky.to_moon;
+          in.camera = camera_at({22.0, 7.0, 40.0}, glm::degrees(std::atan2(moon.x, moon.z)),
+                                glm::degrees(std::asin(moon.y)), fov);
+        }
+        in.exposure_ev.reset();
+        RenderSettings every, fewer;
+        fewer.shading_rate = 4;
+        const std::vector<glm::vec4> truth = radiance(in, every, kSize);
+        const std::vector<glm::vec4> some = radiance(in, fewer, kSize);
+        std::vector<float> levels;
+        for (const glm::vec4& pixel : truth) levels.push_back(pixel.y);
+        std::nth_element(levels.begin(), levels.begin() + levels.size() / 2, levels.end());
+        const float middle = levels[levels.size() / 2];
+        float most = 0.0f;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+          const float apart = std::abs(some[i].y - truth[i].y);
+          most = std::max(most, apart / (truth[i].y + middle));
+          bright += truth[i].y > 3.0f * middle ? 1 : 0;
+          mixed += apart > 0.0f ? 1 : 0;
+        }
+        EXPECT_LT(most, 0.02f);
+      }
+    }
+  }
+  EXPECT_GT(bright, 1000u);
+  EXPECT_GT(mixed, 30000u);
 }
 
 }  // namespace

@@ -1,0 +1,102 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// As classify_tiles.comp, for shading: tiles with surfaces (list 0) and with open pixels (1), and of the latter those in which a star or a disc may
+// be seen (3, and then not in 1). Where radiance is kept beside the picture for water and glass, tiles that keep it are in lists of their own (4, 5,
+// 6), since what is stored for no pixel takes lavapipe as long as what is stored for all; none keep it while no water or glass shows.
+// docs/decisions/0030-light-at-fewer-pixels.md, docs/decisions/0047-the-picture-as-it-is-shaded.md.
+#include "include/frame/common.glsl"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/sky.h"
+#include "include/scene/coverage.glsl"
+#include "include/scene/list_tiles.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
+layout(scalar, binding = kSkyBinding) uniform Sky { SkyConstants sky; };
+layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
+layout(binding = kDepthsBinding) uniform sampler2D depths;
+layout(scalar, binding = kLayerTilesBinding) readonly buffer Layers { TileDispatch layers[]; };
+
+layout(constant_id = kTranslucentConstant) const bool kTranslucent = false;  // if not, something is bound in place of the layers
+layout(constant_id = kStarsConstant) const bool kStars = false;              // whether they are looked for
+layout(constant_id = kDiscsConstant) const bool kDiscs = false;
+
+#include "include/sky/star_cells.glsl"
+
+const float kMostCells = 4.0;  // across a tile; where it covers more, some have stars
+
+// Rays through a tile's outermost pixels.
+struct Corners {
+  vec3 a, b, c, d;
+};
+
+Corners corners_of(uvec2 low) {
+  uvec2 high = low + (kTileEdge - 1u);
+  return Corners(pixel_ray(low), pixel_ray(uvec2(high.x, low.y)), pixel_ray(uvec2(low.x, high.y)), pixel_ray(high));
+}
+
+vec3 in_sky(vec3 dir) { return vec3(dot(sky.sky_x, dir), dot(sky.sky_y, dir), dot(sky.sky_z, dir)); }
+
+// No star is seen from below the horizon: see stars(), whose limit is at 0.05.
+bool far_below(vec3 ray) { return ray.y < -0.06 * length(ray); }
+
+// Whether a star's footprint may touch some pixel. Errs on the side of yes.
+// @param pixel_angle the largest of a pixel [rad].
+bool may_show_star(Corners at, float pixel_angle) {
+  CubePlace a = cube_place(in_sky(at.a)), b = cube_place(in_sky(at.b)), c = cube_place(in_sky(at.c)), d = cube_place(in_sky(at.d));
+  // On one face of the cube places between the corners' rays lie between the corners' places.
+  bool one_face = a.side == b.side && a.side == c.side && a.side == d.side;
+  float reach = star_radius(pixel_angle) * kMostCellsPerRadian;
+  vec2 least = min(min(a.at, b.at), min(c.at, d.at)) - 1e-3, most = max(max(a.at, b.at), max(c.at, d.at)) + 1e-3;
+  vec2 first = floor(least - 0.5), last = floor(most - 0.5) + 1.0;
+  bool known = one_face && all(lessThan(last - first, vec2(kMostCells)));
+  bool found = false;
+  vec2 cell = first;
+  while (known && !found && cell.y <= last.y) {
+    CellStar star = star_in_cell(a.side, cell);
+    found = star.here && all(greaterThan(star.place, least - reach)) && all(lessThan(star.place, most + reach));
+    bool end_of_row = ++cell.x > last.x;
+    cell = end_of_row ? vec2(first.x, cell.y + 1.0) : cell;
+  }
+  bool below = far_below(at.a) && far_below(at.b) && far_below(at.c) && far_below(at.d);
+  return !known || (found && !below);
+}
+
+// Whether a tile may touch a disc, by chords in place of angles. Errs on the side of yes.
+bool may_touch(Corners at, float pixel_angle, vec3 to_body) {
+  vec3 middle = normalize(at.a + at.d);
+  float half_tile = max(max(distance(middle, normalize(at.a)), distance(middle, normalize(at.b))),
+                        max(distance(middle, normalize(at.c)), distance(middle, normalize(at.d))));
+  return distance(middle, to_body) < 1.1 * (kDiscRadius + 1.5 * pixel_angle + half_tile);
+}
+
+void main() {
+  uvec2 count = (frame.size + (kTileEdge - 1u)) / kTileEdge;
+  uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
+  if (tile >= count.x * count.y) return;
+  uvec2 at = uvec2(tile % count.x, tile / count.x), low = at * kTileEdge;
+  bool covered = false, open = false;
+  for (uint y = 0u; y < kTileEdge; ++y) {
+    for (uint x = 0u; x < kTileEdge; ++x) {
+      ivec2 pixel = ivec2(min(low + uvec2(x, y), frame.size - 1u));
+      bool here = is_covered(imageLoad(surfaces, pixel).r, texelFetch(depths, pixel, 0).r);
+      covered = covered || here;
+      open = open || !here;
+    }
+  }
+  bool keeps = kTranslucent && (layers[0].tiles != 0u || frame.camera_medium != 0u) && all(lessThan(low, frame.radiance_area.zw)) &&
+               all(greaterThan(low + kTileEdge, frame.radiance_area.xy));
+  bool detailed = false;
+  if (kStars || kDiscs) {
+    Corners corners = corners_of(low);
+    float pixel_angle = frame.pixel_to_ndc.y * length(frame.ray_up);
+    if (kStars) detailed = may_show_star(corners, pixel_angle);
+    if (kDiscs) detailed = detailed || may_touch(corners, pixel_angle, sky.sun.to_body) || may_touch(corners, pixel_angle, sky.moon.to_body);
+  }
+  uint first = keeps ? 4u : 0u;
+  if (covered) list_tile(first, at, count);
+  if (open && !detailed) list_tile(first + 1u, at, count);
+  if (open && detailed) list_tile(keeps ? 6u : 3u, at, count);
+}
