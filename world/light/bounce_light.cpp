@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <numbers>
 #include <utility>
 
 #include "world/light/face_records.h"
 #include "world/light/shared_exponent.h"
+#include "world/voxel/blocks.h"
 
 namespace skerry::world {
 namespace {
@@ -16,6 +18,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kIrradianceOfOctant = kPi / 4.0f;  // under radiance 1
 constexpr float kShapeSteps = 127.0f;
 constexpr std::uint32_t kFirstEvery = 4, kLastEvery = 2;
+constexpr std::uint8_t kDeepest = 32;  // voxels: below, water is as if it was so deep
 
 /// Octants in front of a face, and what each pattern of theirs weighs.
 struct Hemisphere {
@@ -67,7 +70,22 @@ vector_harmonics() {
   return kAll;
 }
 
+bool is_liquid(const shared::Quad& quad) {
+  return block_types()[shared::surface_block(quad.material)].liquid;
+}
+
 }  // namespace
+
+glm::vec3 left_by_water(float blocks) {
+  constexpr float kIndex = 1.333f, kAlbedo = 0.45f, kMirroredBack = 0.475f;
+  const BlockType& water = block_types()[block::kWater];
+  const glm::vec3 depth =
+      blocks *
+      (glm::vec3(water.absorption[0], water.absorption[1], water.absorption[2]) + water.scattering);
+  const glm::vec3 down = glm::exp(-1.18f * depth), twice = down * down;
+  return 0.933f * 0.933f / (kIndex * kIndex) * twice /
+         (1.0f - kAlbedo * kMirroredBack * twice * twice);
+}
 
 BounceLight::Light& BounceLight::Light::add(const Light& other, float weight) {
   mean += weight * other.mean;
@@ -117,6 +135,8 @@ BounceLight::BounceLight(const LightChunks& chunks, const LatticeLines& lines,
                          std::span<const FaceAlbedo> albedo, int bounces)
     : steps_(bounces + 1), lines_(lines), wanted_(wanted), tints_(tints), albedo_(albedo) {
   numbers_.assign(wanted_.size() * 6, 0);
+  if (!chunks.empty()) voxel_blocks_ = chunks.begin()->second->voxel_blocks;
+  water_ = find_water(chunks);
   for (const auto& [at, chunk] : chunks) {
     const IVec3 corner = corner_of(at);
     for (const shared::Quad& quad : chunk->quads)
@@ -158,7 +178,8 @@ bool BounceLight::set_face(IVec3 front, int direction, std::uint16_t block, bool
       number = 1 + free_faces_.back();
       free_faces_.pop_back();
     }
-    faces_[number - 1] = {front, 0, static_cast<std::uint8_t>(direction), false, false};
+    faces_[number - 1] = {front,           0,     static_cast<std::uint8_t>(direction),
+                          depth_of(front), false, false};
     relit_.add(number - 1);
   }
   Face& face = faces_[number - 1];
@@ -201,7 +222,62 @@ void BounceLight::forget_voxel(std::size_t number) {
 BounceLight::Light BounceLight::reflected(const Face& face, Light light) const {
   const glm::vec3 share =
       face.block < albedo_.size() ? albedo_[face.block][face.direction] / kPi : glm::vec3(0.0f);
-  return light.tint(share);
+  return light.tint(face.depth == 0 ? share : share * left_of(face));
+}
+
+// --- Water ---
+
+/// In columns, from each surface down to the ground or to where the water ends.
+std::vector<BounceLight::Water> BounceLight::find_water(const LightChunks& chunks) const {
+  std::vector<IVec3> surfaces, ends;
+  for (const auto& [at, chunk] : chunks)
+    for (const shared::Quad& quad : chunk->quads)
+      if (is_liquid(quad))
+        for_each_face(quad, [&, corner = corner_of(at)](const DrawnFace& face) {
+          if (face.direction == 2) surfaces.push_back(corner + face.voxel);
+          if (face.direction == 3) ends.push_back(corner + face.voxel);
+        });
+  std::ranges::sort(ends);
+  std::vector<Water> out;
+  for (IVec3 voxel : surfaces)
+    for (std::uint8_t depth = 1; lines_.inside(voxel) && !lines_.is_opaque(voxel); --voxel.y) {
+      out.push_back({voxel, depth});
+      if (std::ranges::binary_search(ends, voxel)) break;
+      if (depth < kDeepest) ++depth;
+    }
+  std::ranges::sort(out, {}, [](const Water& one) { return std::pair(one.voxel, one.depth); });
+  return out;
+}
+
+std::uint8_t BounceLight::depth_of(IVec3 voxel) const {
+  const auto found = std::ranges::lower_bound(water_, voxel, {}, &Water::voxel);
+  return found != water_.end() && found->voxel == voxel ? found->depth : std::uint8_t{0};
+}
+
+glm::vec3 BounceLight::left_of(const Face& face) const {
+  // A face that looks up lies at its voxel's lower end.
+  const float depth = static_cast<float>(face.depth) - (face.direction == 2 ? 0.0f : 0.5f);
+  return left_by_water(depth * voxel_blocks_);
+}
+
+bool BounceLight::moves_water(std::span<const IVec3> changed, bool surfaces) const {
+  return surfaces || (!water_.empty() && std::ranges::any_of(changed, [&](IVec3 voxel) {
+           return depth_of(voxel) != 0 || depth_of(voxel + IVec3{0, 1, 0}) != 0;
+         }));
+}
+
+void BounceLight::take_water(const LightChunks& chunks) {
+  std::vector<Water> before = std::exchange(water_, find_water(chunks));
+  const auto look = [&](IVec3 voxel) {
+    if (!wanted_.has(voxel)) return;
+    const std::uint8_t depth = depth_of(voxel);
+    const std::size_t base = wanted_.of(voxel) * 6;
+    for (std::size_t direction = 0; direction < 6; ++direction)
+      if (const Number number = numbers_[base + direction])
+        if (std::exchange(faces_[number - 1].depth, depth) != depth) relit_.add(number - 1);
+  };
+  for (const std::vector<Water>* all : {&before, &water_})
+    for (const Water& one : *all) look(one.voxel);
 }
 
 // --- Lines ---

@@ -28,6 +28,12 @@ inline float luminance(const glm::vec3& c) {
 /// Ways to the sky that a voxel sees: for each octant a bit a pattern.
 using SeenSky = std::array<std::uint16_t, kOctants>;
 
+/// Of what a face under level water would send out into the air without it, the share that gets
+/// there, if light falls evenly on the water: by Fresnel's, Snell's and Beer's laws for a wide
+/// level bed of albedo 0.45, whose light the surface mirrors back in part. shaders/include/surface/
+/// under_water.glsl has the same of the way down. @param blocks from the surface to the face.
+glm::vec3 left_by_water(float blocks);
+
 /// Light that faces of an island send to each other: of the sky, sun and moon as a function of what
 /// they send, and of lamps.
 ///
@@ -37,6 +43,8 @@ using SeenSky = std::array<std::uint16_t, kOctants>;
 /// hemisphere, its neighbours along the other half, and for all reflections but the last along a
 /// quarter. A line that does not end at the sky ends at the first voxel that it touches, and what
 /// comes from there is the light of the face that it enters through, from the air that it came by.
+///
+/// What leaves a face under level water has passed that twice: left_by_water().
 ///
 /// Where lines end and what leaves each face at each step are kept, so that after an edit only that
 /// is worked out again which it changes. What leaves a face is rounded between the steps
@@ -87,12 +95,17 @@ class BounceLight {
     return out;
   }
 
-  // --- After an edit: first voxels, then faces, then lines, then light ---
+  // --- After an edit: first voxels, then water, faces, lines and light ---
 
   /// Numbers of voxels have changed, or there are more of them.
   void move_voxels(std::span<const VoxelIndex::Moved> moved);
   /// A number has been handed out, or its voxel has become opaque: no face is before it.
   void forget_voxel(std::size_t number);
+  /// Whether an edit may change how deep faces lie under water. @param changed voxels that are of
+  /// other blocks now. @param surfaces whether upper or lower faces of water have come or gone.
+  bool moves_water(std::span<const IVec3> changed, bool surfaces) const;
+  /// Looks for water once more.
+  void take_water(const LightChunks& chunks);
   /// A drawn face has come, or its block has changed. @return whether it is new.
   bool set_face(IVec3 front, int direction, std::uint16_t block, bool plant);
   void remove_face(IVec3 front, int direction, bool plant);
@@ -133,8 +146,9 @@ class BounceLight {
     IVec3 front{};
     std::uint16_t block = 0;
     std::uint8_t direction = 0;
-    bool ground = false;  // a block's face
-    bool plant = false;   // a plant stands there; on a block's face it shares its light
+    std::uint8_t depth = 0;  // in voxels, of the voxel before it under water; 0: it is in the air
+    bool ground = false;     // a block's face
+    bool plant = false;      // a plant stands there; on a block's face it shares its light
   };
   /// Light in 16 bytes: to 1/512 of its brightest channel, shape to 1/254 of its greatest.
   struct PackedLight {
@@ -174,6 +188,15 @@ class BounceLight {
   void add_reader(Source source, Number reader);
   Light reflected(const Face& face, Light light) const;
 
+  /// A voxel of water and how many voxels of it there are up to its surface, its own included.
+  struct Water {
+    IVec3 voxel{};
+    std::uint8_t depth = 0;
+  };
+  std::vector<Water> find_water(const LightChunks& chunks) const;
+  std::uint8_t depth_of(IVec3 voxel) const;
+  glm::vec3 left_of(const Face& face) const;
+
   bool is_last(int step) const { return step == steps_ - 1; }
 
   int steps_;
@@ -182,6 +205,8 @@ class BounceLight {
   const GlassTints& tints_;
   std::span<const FaceAlbedo> albedo_;
   std::vector<Face> faces_;
+  std::vector<Water> water_;  // by voxel
+  float voxel_blocks_ = 1.0f;
   std::vector<Number> free_faces_;
   std::vector<Number> numbers_;  // 1 + of faces_, by voxel and direction; 0: none
   std::vector<std::array<Source, kLines>> sources_;  // by face: of first reflections, of the last

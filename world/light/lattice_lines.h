@@ -40,6 +40,7 @@ class LatticeLines {
 
   const Way& way(std::size_t number) const { return ways_[number]; }
   bool inside(IVec3 voxel) const;
+  bool is_opaque(IVec3 voxel) const { return air_.opaque.at(voxel); }
   /// Whether a line passes a voxel. Leaves stop half of the ways, plants a quarter.
   bool open(IVec3 voxel, std::size_t way) const;
   /// Whether a line touches what is not open on its way once along the vector.

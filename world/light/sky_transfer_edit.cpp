@@ -10,6 +10,7 @@
 #include "engine/core/check.h"
 #include "world/light/face_changes.h"
 #include "world/light/sky_transfer.h"
+#include "world/voxel/blocks.h"
 #include "world/voxel/chunk.h"
 
 namespace skerry::world {
@@ -170,7 +171,21 @@ class SkyTransfer::Edit {
     move(of_.wanted_.remove(voxel));
   }
 
+  /// Where an edit may change how deep faces lie under water, and whether it surely does.
+  void take_water() {
+    bool surfaces = false;
+    std::vector<IVec3> voxels = voxels_;
+    for (const std::vector<Face>* faces : {&came_, &went_, &turned_})
+      for (const Face& face : *faces) {
+        if (face.drawn.direction / 2 != 1) continue;
+        surfaces |= block_types()[face.block].liquid;
+        if (faces == &turned_) voxels.push_back(face.drawn.voxel);
+      }
+    if (of_.bounces_->moves_water(voxels, surfaces)) of_.bounces_->take_water(of_.chunks_);
+  }
+
   void take_faces() {
+    if (of_.bounces_) take_water();
     if (of_.bounces_)
       for (const Face& face : went_)
         of_.bounces_->remove_face(face.front, face.drawn.direction, face.drawn.plant);

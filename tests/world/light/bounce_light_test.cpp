@@ -137,8 +137,11 @@ class Paths {
 /// What has been found of an island whose faces are all alike.
 class Found {
  public:
-  Found(const Voxels& stone, glm::vec3 albedo, const test::Lamps& lamps = {})
-      : chunks_(chunks_of(stone, lamps)), albedo_(all_of(albedo)), transfer_(chunks_, albedo_) {
+  Found(const Voxels& stone, glm::vec3 albedo, const test::Lamps& lamps = {},
+        const test::Glass& glass = {})
+      : chunks_(chunks_of(stone, lamps, {}, glass)),
+        albedo_(all_of(albedo)),
+        transfer_(chunks_, albedo_) {
     for (int octant = 0; octant < kOctants; ++octant) transfer_.look(octant);
     transfer_.spread_lamps();
     for (int step = 0; step < BounceLight::kSteps; ++step)
@@ -356,6 +359,58 @@ TEST(BounceLight, AClosedRoomHoldsItsLampsLightOnceForEachReflection) {
     EXPECT_GT(all[c] / direct[c], 0.98 * expected) << c;
     EXPECT_LT(all[c] / direct[c], 1.14 * expected) << c;
   }
+}
+
+// Between the air and a wide level bed: of light that comes evenly, what Fresnel's, Snell's and
+// Beer's laws leave on both ways, and what the surface mirrors back to the bed again and again.
+TEST(BounceLight, WaterLeavesOfABedsLightWhatFresnelSnellAndBeerDo) {
+  constexpr double kIndex = 1.333, kAlbedo = 0.45;
+  const auto fresnel = [](double c) {
+    const double upright = std::pow((kIndex - 1.0) / (kIndex + 1.0), 2.0);
+    return upright + (1.0 - upright) * std::pow(1.0 - c, 5.0);
+  };
+  const auto bent = [](double c) { return std::sqrt(1.0 - (1.0 - c * c) / (kIndex * kIndex)); };
+  const auto over_hemisphere = [](const auto& f) {
+    constexpr int kSteps = 4000;
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i)
+      sum += 2.0 * (i + 0.5) / kSteps / kSteps * f((i + 0.5) / kSteps);
+    return sum;
+  };
+  const BlockType& water = block_types()[block::kWater];
+  for (const double blocks : {0.5, 1.0, 2.0, 4.0}) {
+    const glm::vec3 left = left_by_water(static_cast<float>(blocks));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double depth = blocks * static_cast<double>(water.absorption[c] + water.scattering);
+      const double down = over_hemisphere(
+          [&](double cosine) { return (1.0 - fresnel(cosine)) * std::exp(-depth / bent(cosine)); });
+      const double back = over_hemisphere([&](double cosine) {
+        const double sine2 = kIndex * kIndex * (1.0 - cosine * cosine);
+        return std::exp(-2.0 * depth / cosine) *
+               (sine2 >= 1.0 ? 1.0 : fresnel(std::sqrt(1.0 - sine2)));
+      });
+      // Up, along the same rays as down: radiance goes with the square of the index.
+      const double expected = down * down / (kIndex * kIndex) / (1.0 - kAlbedo * back);
+      EXPECT_NEAR(static_cast<double>(left[static_cast<int>(c)]), expected, 0.02 * expected)
+          << blocks << ' ' << c;
+    }
+  }
+}
+
+// A stone hangs over a pool three blocks deep: it has that share of what it has over the dry bed.
+TEST(BounceLight, WhatABedSendsHasPassedItsWaterTwice) {
+  Voxels stone;
+  fill(stone, {-12, 0, -12}, {12, 1, 12});
+  stone.insert({0, 8, 0});
+  test::Glass water;
+  for (int y = 1; y < 4; ++y)
+    for (int x = -12; x < 12; ++x)
+      for (int z = -12; z < 12; ++z) water[{x, y, z}] = block::kWater;
+  const std::array<double, kHarmonics> even{1.0};
+  const glm::dvec3 dry = Found(stone, kRed).bounced({0, 8, 0}, 3, even),
+                   wet = Found(stone, kRed, {}, water).bounced({0, 8, 0}, 3, even);
+  const glm::dvec3 left(left_by_water(3.0f));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(wet[c] / dry[c], left[c], 0.03 * left[c]) << c;
 }
 
 }  // namespace

@@ -257,6 +257,54 @@ TEST(SkyTransferEdit, FollowsStainedGlassThatComesAndGoes) {
   }
 }
 
+// A pool between walls: water, glass and stones come and go in it and beside it.
+TEST(SkyTransferEdit, FollowsWaterThatComesAndGoes) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    std::mt19937 random(seed);
+    const auto part = [&](int low, int high) {
+      return low + static_cast<int>(random() % static_cast<unsigned>(high - low));
+    };
+    Voxels stone;
+    Glass water;
+    for (int x = -9; x < 9; ++x)
+      for (int z = -9; z < 9; ++z) {
+        const bool shore = x < -6 || x > 5 || z < -6 || z > 5;
+        for (int y = -6; y < (shore ? 0 : -3); ++y) stone.insert({x, y, z});
+        for (int y = -3; y < 0 && !shore; ++y) water[{x, y, z}] = block::kWater;
+      }
+    for (int y = 0; y < 6; ++y)
+      for (int z = -9; z < 9; ++z) stone.insert({-9, y, z});
+    const auto now = [&] { return chunks_of(stone, {}, {}, water); };
+    LightChunks chunks = now();
+    std::unique_ptr<SkyTransfer> kept = looked_at(chunks);
+    int followed = 0;
+    for (int round = 0; round < 40; ++round) {
+      const IVec3 at{part(-7, 7), part(-5, 2), part(-7, 7)};
+      stone.erase(at), water.erase(at);
+      switch (random() % 4) {
+        case 0:
+          stone.insert(at);
+          break;
+        case 1:
+          water[at] = block::kWater;
+          break;
+        case 2:
+          if (round % 3 == 0) water[at] = block::kGreenGlass;
+          break;
+        default:
+          break;
+      }
+      chunks = with_what_stays(chunks, now());
+      if (kept->edit(chunks))
+        ++followed;
+      else
+        kept = looked_at(chunks);
+      ASSERT_EQ(differences(kept->faces(), looked_at(chunks)->faces()), 0u) << seed << ' ' << round;
+    }
+    EXPECT_GT(followed, 30);
+  }
+}
+
 TEST(SkyTransferEdit, FindsTheSkyAloneAlike) {
   Voxels stone;
   for (int x = 0; x < 20; ++x)

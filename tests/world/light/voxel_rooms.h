@@ -10,6 +10,7 @@
 #include "world/light/face_records.h"
 #include "world/light/sky_transfer.h"
 #include "world/mesh/mesh.h"
+#include "world/voxel/blocks.h"
 #include "world/voxel/chunk.h"
 
 namespace skerry::world::test {
@@ -37,8 +38,8 @@ struct Lamps {
 };
 
 /// Chunks of stone voxels with a quad for each face that is not covered by stone.
-/// @param plants voxels in which tall grass stands. @param glass blocks of stained glass, none of
-/// them in stone.
+/// @param plants voxels in which tall grass stands. @param glass blocks of stained glass and water,
+/// none of them in stone.
 inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {},
                              const Voxels& plants = {}, const Glass& glass = {}) {
   struct Building {
@@ -67,7 +68,7 @@ inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {},
     const auto local = [](int x, int y, int z) {
       return static_cast<std::uint32_t>((x & 63) | (y & 63) << 6 | (z & 63) << 12);
     };
-    b.chunk.stained.push_back({local(v.z, v.x, v.y), block});
+    if (!block_types()[block].liquid) b.chunk.stained.push_back({local(v.z, v.x, v.y), block});
     for (int face = 0; face < 6; ++face) {
       const auto next = glass.find(beside(v, face));
       if (stone.contains(beside(v, face)) || (next != glass.end() && next->second == block))
