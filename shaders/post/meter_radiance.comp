@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The meter. First the histogram of the luminance of scene radiance, black left out: one pixel of each cell of stride x stride, at a place in it
-// that looks random and is always the same, from the image of radiance or from what shading kept; integer counts: no order of work groups shows. Then, in one work group with a thread a bin, an
-// exposure from the histogram: mean of log2 luminance without the darkest and the brightest pixels; sums run in a fixed order.
+// that looks random and is always the same, from the image of radiance or from what shading kept; integer counts: no order of work groups shows.
+// Then, in one work group with a thread a bin, an exposure from the histogram: mean of log2 luminance without the darkest and the brightest pixels;
+// sums run in a fixed order.
 // Last, if it is asked for, a debug view over the lower third of the picture: the histogram by log2 luminance from left to right. White bars
 // count, grey ones are passed over. Blue lines: where the limits lie; yellow: what is metered; red: what the picture is exposed for.
 // docs/exposure.md, docs/conventions.md.

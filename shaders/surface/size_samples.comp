@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Sizes the dispatches of shade_samples.comp by how many pixels were listed, of programs that keep radiance or of those that do not. A pass of its own: kept up to date by atomics while pixels are
-// listed, the sizes cost lavapipe 1.5 ms at 1280x720.
+// Sizes the dispatches of shade_samples.comp by how many pixels were listed, of programs that keep radiance or of those that do not. A pass of
+// its own: kept up to date by atomics while pixels are listed, the sizes cost lavapipe 1.5 ms at 1280x720.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"

@@ -107,6 +107,75 @@ TEST(ReferenceUnderWater, NothingIsLostOfLightThatIsMirroredBack) {
   EXPECT_LE(seen.z, kPi);
 }
 
+/// The same from within: all of it beyond the critical angle.
+double fresnel_within(double cosine) {
+  const double sine2 = kIndex * kIndex * (1.0 - cosine * cosine);
+  return sine2 >= 1.0 ? 1.0 : fresnel_at(std::sqrt(1.0 - sine2));
+}
+/// 2 times the integral of f(c) c over the cosine c.
+template <class Fn>
+double over_hemisphere(const Fn& f) {
+  constexpr int kSteps = 4000;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double cosine = (i + 0.5) / kSteps;
+    sum += 2.0 / kSteps * cosine * f(cosine);
+  }
+  return sum;
+}
+/// Radiance that a wide bed under so much optical depth sends up, within the water, if radiance 1
+/// comes from all of the sky. The surface mirrors a part back to it, again and again.
+double sent_by_bed(double albedo, double depth) {
+  const double comes = over_hemisphere(
+      [&](double c) { return (1.0 - fresnel_at(c)) * std::exp(-depth / bent_cosine(c)); });
+  const double back =
+      over_hemisphere([&](double c) { return fresnel_within(c) * std::exp(-2.0 * depth / c); });
+  return albedo * comes / (1.0 - albedo * back);
+}
+
+/// Level water one block deep over a bed that swallows nothing, seen from eight blocks above it.
+Scene white_pool() {
+  const Island pool{world::Volume::from_voxels({-60, -3, -60}, {61, 0, 61}, [](world::IVec3 v) {
+    return world::BlockId{v.y < -1 ? world::block::kStone : world::block::kWater};
+  })};
+  Scene scene = seen_from({0.5, 8.0, 0.5}, {0.0, -1.0, 0.0}, {pool}, 16, 0.2);
+  scene.environment = glm::dvec3(1.0);
+  scene.bounces = 64;
+  return scene;
+}
+
+TEST(ReferenceUnderWater, WhatHangsOverAWhitePoolHasWhatThePoolSendsBack) {
+  const glm::dvec3 seen =
+      irradiance_at(white_pool(), {0.0, -6.0, 0.0}, {0.0, -1.0, 0.0}, 1u << 16) / kPi;
+  for (int c = 0; c < 3; ++c) {
+    const double depth = extinction_of(world::block::kWater)[c];
+    const double sent = sent_by_bed(1.0, depth) / (kIndex * kIndex);
+    const double expected = over_hemisphere([&](double cosine) {
+      const double mirrored = fresnel_at(cosine);
+      return mirrored + (1.0 - mirrored) * std::exp(-depth / bent_cosine(cosine)) * sent;
+    });
+    EXPECT_LT(expected, 1.0);
+    EXPECT_NEAR(seen[c], expected, 0.01 * expected) << c;
+  }
+}
+
+TEST(ReferenceUnderWater, AnEyeAboveAWhitePoolSeesNoMoreThanFallsOnIt) {
+  const ReferencePicture picture = render(white_pool(), samples(256));
+  glm::dvec3 seen(0.0);
+  for (const auto& pixel : picture.radiance.pixels)
+    seen += glm::dvec3(pixel.x, pixel.y, pixel.z) / double(picture.radiance.pixels.size());
+  for (int c = 0; c < 3; ++c) {
+    const double depth = extinction_of(world::block::kWater)[c], mirrored = fresnel_at(1.0);
+    const double left = std::exp(-depth);
+    const double scattered =
+        static_cast<double>(world::block_types()[world::block::kWater].scattering) / depth *
+        (1.0 - left) / 4.0;
+    const double expected = mirrored + (1.0 - mirrored) / (kIndex * kIndex) *
+                                           (left * sent_by_bed(1.0, depth) + scattered);
+    EXPECT_NEAR(seen[c], expected, 0.015 * expected) << c;
+  }
+}
+
 TEST(ReferenceUnderWater, GlassColoursTheSun) {
   // A pane three blocks thick over ground.
   Scene scene;

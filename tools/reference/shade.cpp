@@ -64,6 +64,14 @@ bool leaves(const Meeting& layer, glm::dvec3 lattice_direction) {
   return (middle - layer.lattice[axis]) * lattice_direction[axis] < 0.0;
 }
 
+/// Of radiance behind a surface of water, what there is of it before: it goes with the square of
+/// the index, for in water a cone holds what comes from the air's half space.
+/// @param entering whether the ray, which goes against the light, enters the water.
+double through_water_surface(bool entering) {
+  constexpr double kSquare = kWaterIndex * kWaterIndex;
+  return entering ? 1.0 / kSquare : kSquare;
+}
+
 }  // namespace
 
 /// The surface of level water through which a ray leaves it; null: none before what it hits.
@@ -177,8 +185,8 @@ void Shader::trace_from(const Receiver& at, glm::dvec3 direction, Trace& out) co
   out.layers = std::move(layers);
 }
 
-/// Out of level water a ray is bent, or mirrored back by lot; whatever else it meets of water and
-/// glass it goes through straight, and they absorb.
+/// At level water, from either side, a ray is bent, or mirrored back by lot; whatever else it meets
+/// of water and glass it goes through straight, and they absorb.
 Shader::Followed Shader::follow(const Receiver& at, glm::dvec3 direction, Sampler& sampler) const {
   constexpr int kMostParts = 8;
   Followed out{std::nullopt, at.point, direction, glm::dvec3(1.0)};
@@ -188,22 +196,24 @@ Shader::Followed Shader::follow(const Receiver& at, glm::dvec3 direction, Sample
     out.origin = from.point;
     trace_from(from, out.direction, trace);
     const std::optional<Tracer::Medium> in = tracer_.medium_at(from.point);
-    const Meeting* surface = leaves_water(trace, out.direction);
-    const double end = surface ? surface->t : trace.hit ? trace.hit->t : kFar;
+    const auto surface = std::ranges::find_if(trace.layers, is_wavy);
+    const bool found = surface != trace.layers.end();
+    const double end = found ? surface->t : trace.hit ? trace.hit->t : kFar;
     out.share *= left_by_media(trace, out.direction, end, in ? in->block : world::kAir);
-    if (!surface) {
+    if (!found) {
       out.hit = trace.hit;
       return out;
     }
-    const glm::dvec3 inside = tracer_.normal(surface->island, surface->face);
+    const bool leaving = leaves(*surface, tracer_.lattice_vector(surface->island, out.direction));
+    const glm::dvec3 normal = tracer_.normal(surface->island, surface->face);
     const glm::dvec3 point = from.point + out.direction * surface->t;
-    const double mirrored = fresnel(-glm::dot(out.direction, inside), true, kWaterIndex);
+    const double mirrored = fresnel(-glm::dot(out.direction, normal), leaving, kWaterIndex);
     const bool back = sampler.next().x < mirrored;
-    out.direction = back ? glm::reflect(out.direction, inside)
-                         : glm::refract(out.direction, inside, kWaterIndex);
-    // What comes from the air's whole hemisphere comes through a cone: it is brighter there.
-    if (!back) out.share *= kWaterIndex * kWaterIndex;
-    from.point = point + inside * (back ? kOffSurface : -kOffSurface);
+    out.direction =
+        back ? glm::reflect(out.direction, normal)
+             : glm::refract(out.direction, normal, leaving ? kWaterIndex : 1.0 / kWaterIndex);
+    if (!back) out.share *= through_water_surface(!leaving);
+    from.point = point + normal * (back ? kOffSurface : -kOffSurface);
   }
   out.share = glm::dvec3(0.0);
   return out;
@@ -675,6 +685,7 @@ void Shader::pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine,
   }
   passage.radiance += passage.through * (reached.mirrored + reflected * mirrored);
   passage.through *= 1.0 - reflected;
+  if (type.liquid) passage.through *= through_water_surface(entering);
   if (!wavy) {
     const glm::dvec3 place = on_plane(layer, tracer_.lattice_point(layer.island, ray.origin),
                                       tracer_.lattice_vector(layer.island, fine));

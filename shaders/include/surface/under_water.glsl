@@ -39,6 +39,17 @@ vec3 near_surface(Depth depth, vec3 p, vec3 to_light) {
   return p + to_light * (blocks / max(dot(depth.up, to_light), 0.1));
 }
 
+// What water takes from an even sky on the way down to a level bed, to 2% up to an optical depth of 2: 2 times the integral of
+// (1 - F) exp(-x / c') c over the cosine c, c' that of the bent ray, is 0.933 exp(-1.18 x).
+vec3 left_on_way_down(Depth depth) { return exp(-1.18 * depth.extinction * depth.blocks); }
+
+// How many times as much light a wide level bed has as comes through the surface, which mirrors back some of what the bed sends up: at an
+// optical depth x, 0.475 exp(-4.7 x) of it, to 0.015. Of an albedo of 0.45: what it is, light at fewer pixels does not know.
+vec3 lit_again(Depth depth) {
+  vec3 twice = left_on_way_down(depth) * left_on_way_down(depth);
+  return 1.0 / (1.0 - 0.45 * 0.475 * twice * twice);
+}
+
 // How a body's light comes to a place.
 struct BodyWay {
   vec3 to_light;  // where it comes from there
@@ -50,7 +61,8 @@ BodyWay body_way(Depth depth, vec3 to_light) {
   float cosine = dot(depth.up, to_light);
   vec3 bent = -refract(-to_light, depth.up, 1.0 / kWaterIndex);
   float inside = max(dot(depth.up, bent), 0.1);
-  vec3 share = exp(-depth.extinction * (depth.blocks / inside)) * ((1.0 - fresnel(cosine, false, kWaterIndex)) * max(cosine, 0.0) / inside);
+  vec3 share = exp(-depth.extinction * (depth.blocks / inside)) * lit_again(depth);
+  share *= (1.0 - fresnel(cosine, false, kWaterIndex)) * max(cosine, 0.0) / inside;
   return depth.blocks > 0.0 ? BodyWay(bent, share) : BodyWay(to_light, vec3(1.0));
 }
 
@@ -68,7 +80,6 @@ bool shaded_in_water(Depth depth, vec3 p, vec3 normal, vec3 to_light, const uint
   return known && way > 0.25 + 2.0 * c.texel_blocks && way * dot(depth.up, to_light) < depth.blocks - kShoreBlocks;
 }
 
-// Light of the sky that comes to a place under an open surface, of what would without water, to 2% up to an optical depth of 2: of an even sky on
-// a level face that is 2 times the integral of (1 - F) exp(-x / c') c over the cosine c, c' that of the bent ray.
-vec3 sky_share(Depth depth) { return depth.blocks > 0.0 ? 0.933 * exp(-1.18 * depth.extinction * depth.blocks) : vec3(1.0); }
+// Light of the sky that comes to a place under an open surface, of what would without water.
+vec3 sky_share(Depth depth) { return depth.blocks > 0.0 ? 0.933 * left_on_way_down(depth) * lit_again(depth) : vec3(1.0); }
 #endif

@@ -98,7 +98,9 @@ Above seen_above(const SkyModel& sky, glm::dvec3 ray) {
   const double upright = std::pow((kIndex - 1.0) / (kIndex + 1.0), 2.0);
   const double mirrored =
       upright + (1.0 - upright) * std::pow(1.0 - std::abs(glm::dot(bent, normal)), 5.0);
-  return {false, (1.0 - mirrored) * glm::exp(-way * extinction_of(world::block::kWater)) *
+  // Radiance goes with the square of the index.
+  return {false, kIndex * kIndex * (1.0 - mirrored) *
+                     glm::exp(-way * extinction_of(world::block::kWater)) *
                      sky_radiance(bent, sky)};
 }
 

@@ -45,6 +45,19 @@ double bent_cosine(double cosine) {
   return std::sqrt(1.0 - (1.0 - cosine * cosine) / (kIndex * kIndex));
 }
 
+/// Of what a bed sends up through so much optical depth, the part that comes back to it from the
+/// surface.
+double mirrored_back(double depth) {
+  constexpr int kSteps = 4000;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double cosine = (i + 0.5) / kSteps, sine2 = kIndex * kIndex * (1.0 - cosine * cosine);
+    sum += 2.0 * cosine / kSteps * std::exp(-2.0 * depth / cosine) *
+           (sine2 >= 1.0 ? 1.0 : fresnel_at(std::sqrt(1.0 - sine2)));
+  }
+  return sum;
+}
+
 class UnderWater : public RendererOnGpu {
  protected:
   const std::vector<IslandPlacement> islands_{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};
@@ -103,9 +116,12 @@ TEST_F(UnderWater, ABedHasWhatFresnelAndBeerLeaveOfTheSun) {
       // What the water itself scatters of the light that falls on it: docs/conventions.md.
       const double sent =
           kSun * cosine * kScattering / extinction[c] * (1.0 - up) / (4.0 * std::numbers::pi);
-      // The bed has been seen through the air already.
-      const double expected = (1.0 - fresnel_at(1.0)) *
-                              (without[c] * up * down + sent * std::exp(-kHazeABlock * kHigh));
+      const double albedo = without[c] * std::numbers::pi / (kSun * cosine);
+      const double again = 1.0 / (1.0 - albedo * mirrored_back(kDeep * extinction[c]));
+      // The bed has been seen through the air already. Radiance goes with the square of the index.
+      const double expected =
+          (1.0 - fresnel_at(1.0)) / (kIndex * kIndex) *
+          (without[c] * up * down * again + sent * std::exp(-kHazeABlock * kHigh));
       EXPECT_NEAR(with[c], expected, 0.03 * expected) << degrees << " degrees, channel " << c;
     }
   }
