@@ -94,7 +94,7 @@ void main() {
   s.ao = surface_ao(s, word);
   Depth depth_in_water = depth_of_pixel(pixel, word, s.position);
   mat2x3 sent = light_sent(s, depth_in_water, word, pixel, z, here);
-  SkyLight sky = light_of_sky(s, word, sky_share(depth_in_water));
+  SkyLight sky = light_of_sky(s, word, sky_share(depth_in_water) * lit_again(depth_in_water));
   // What emits in part has no samples that others take: of those any albedo does.
   vec3 albedo = kEveryPixel ? surface_texel(word, ray, z, kTextureTaps).rgb : vec3(1.0);
   sent[1] += kInvPi * sky.irradiance + emission_of(word, albedo);

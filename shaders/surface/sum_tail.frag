@@ -46,8 +46,10 @@ void main() {
   float begun = entering ? to_end : -to_end;
   vec3 in_media = extinction(m) * begun;
   float scattered_in_media = m.scattering * begun;
+  bool into_water = entering && m.liquid != 0u, from_water = !entering && m.liquid != 0u;
   if (touched != 0u) {
     Material left = materials[materials[touched].translucent_block];
+    from_water = left.liquid != 0u;
     in_media -= extinction(left) * to_end;
     scattered_in_media -= left.scattering * to_end;
   }
@@ -59,6 +61,8 @@ void main() {
   float depth = -log(max(1.0 - taken, kLeastTransmittance)), by_depth = depth / taken;
   // From inside, the medium itself is what is mirrored.
   vec3 sent = covered * texel.rgb + (entering ? vec3(0.0) : 0.25 * reflected * m.scattering / max(extinction(m), 1e-6));
-  out_depths = vec4(in_media, depth);
+  // The square of the index, as look_through() has it.
+  const float squared = 2.0 * log(kWaterIndex);
+  out_depths = vec4(in_media, depth + squared * (float(into_water) - float(from_water)));
   out_light = by_depth * vec4(sent, entering ? reflected : 0.0) + vec4(vec3(0.25 * scattered_in_media), 0.0);
 }

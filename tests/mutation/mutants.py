@@ -189,7 +189,7 @@ MUTANTS = (
            "shaders/include/surface/bent.glsl", "refract(dir, shading, kWaterIndex)", "dir", "underwater_up"),
     Mutant("water_as_bright_as_air", "radiance stays the same at the surface of water",
            "shaders/include/surface/water.glsl",
-           "through *= entering ? 1.0 / (kWaterIndex * kWaterIndex) : kWaterIndex * kWaterIndex;",
+           "through *= into_water ? 1.0 / (kWaterIndex * kWaterIndex) : kWaterIndex * kWaterIndex;",
            "through *= 1.0;", "water underwater_up"),
     Mutant("water_bends_nothing", "rays go straight through water", "shaders/surface/bend_rays.comp",
            "bool bends = has_ripples(word)", "bool bends = false"),

@@ -176,6 +176,24 @@ TEST(ReferenceUnderWater, AnEyeAboveAWhitePoolSeesNoMoreThanFallsOnIt) {
   }
 }
 
+TEST(ReferenceUnderWater, WaterBetweenPanesLeavesRadianceAsItWas) {
+  // Along x, through the middle of blocks: a pane, water and a pane again.
+  const Island tank{world::Volume::from_voxels({0, 0, 0}, {3, 3, 3}, [](world::IVec3 v) {
+    return world::BlockId{v.x == 1 ? world::block::kWater : world::block::kGlass};
+  })};
+  Scene scene = seen_from({-4.0, 1.5, 1.5}, {1.0, 0.0, 0.0}, {tank}, 4, 0.005);
+  scene.environment = glm::dvec3(1.0);
+  const ReferencePicture picture = render(scene, samples(16));
+  // What each surface mirrors of what is as bright as what lies behind it changes nothing.
+  for (const auto& pixel : picture.radiance.pixels)
+    for (int c = 0; c < 3; ++c) {
+      const double left = std::exp(-2.0 * extinction_of(world::block::kGlass)[c] -
+                                   extinction_of(world::block::kWater)[c]);
+      EXPECT_GT(static_cast<double>(pixel[c]), 0.9 * left) << c;
+      EXPECT_LT(static_cast<double>(pixel[c]), 1.1 * left) << c;
+    }
+}
+
 TEST(ReferenceUnderWater, GlassColoursTheSun) {
   // A pane three blocks thick over ground.
   Scene scene;

@@ -566,8 +566,8 @@ TEST(Stream, AnEditOfAFarIslandShows) {
   Loaded loaded(FarScene(), 2);
   auto& [scene, world, jobs, streamer, consumer] = loaded;
   const IslandSpec far = world.islands_near(scene.view.camera, 1500.0, 0.0).back();
-  const auto is_far = [&] {
-    return std::ranges::any_of(consumer.held(), [&](const auto& held) {
+  const auto is_far = [&consumer = consumer, &far] {
+    return std::ranges::any_of(consumer.held(), [&far](const auto& held) {
       return held.first.island == far.id && held.first.far;
     });
   };
@@ -587,7 +587,7 @@ TEST(Stream, AnEditOfAFarIslandShows) {
   ASSERT_NE(lamp, consumer.shining().end());
   EXPECT_EQ(lamp->second, 6);
   expect_same(consumer.held(),
-              [&] {  // as for one who comes later
+              [&world = world, &jobs = jobs, &scene = scene] {  // as for one who comes later
                 Streamer later(world, jobs);
                 Consumer other;
                 later.update(scene.view, scene.settings);

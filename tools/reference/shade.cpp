@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "tools/reference/brdf.h"
 #include "tools/reference/media.h"
@@ -64,12 +65,14 @@ bool leaves(const Meeting& layer, glm::dvec3 lattice_direction) {
   return (middle - layer.lattice[axis]) * lattice_direction[axis] < 0.0;
 }
 
-/// Of radiance behind a surface of water, what there is of it before: it goes with the square of
-/// the index, for in water a cone holds what comes from the air's half space.
-/// @param entering whether the ray, which goes against the light, enters the water.
-double through_water_surface(bool entering) {
+/// Of radiance behind a surface, what there is of it before: it goes with the square of the index,
+/// for in water a cone holds what comes from the air's half space. Glass counts as if it had none.
+/// @param from, into that a ray passes, which goes against the light.
+double through_water_surface(world::BlockId from, world::BlockId into) {
   constexpr double kSquare = kWaterIndex * kWaterIndex;
-  return entering ? 1.0 / kSquare : kSquare;
+  const bool before = world::block_types()[from].liquid, after = world::block_types()[into].liquid;
+  if (before == after) return 1.0;
+  return after ? 1.0 / kSquare : kSquare;
 }
 
 }  // namespace
@@ -199,7 +202,13 @@ Shader::Followed Shader::follow(const Receiver& at, glm::dvec3 direction, Sample
     const auto surface = std::ranges::find_if(trace.layers, is_wavy);
     const bool found = surface != trace.layers.end();
     const double end = found ? surface->t : trace.hit ? trace.hit->t : kFar;
-    out.share *= left_by_media(trace, out.direction, end, in ? in->block : world::kAir);
+    world::BlockId medium = in ? in->block : world::kAir;
+    out.share *= left_by_media(trace, out.direction, end, medium);
+    for (auto layer = trace.layers.begin(); layer != surface && layer->t < end; ++layer) {
+      const bool out_of = leaves(*layer, tracer_.lattice_vector(layer->island, out.direction));
+      const world::BlockId next = out_of ? world::kAir : layer->block;
+      out.share *= through_water_surface(std::exchange(medium, next), next);
+    }
     if (!found) {
       out.hit = trace.hit;
       return out;
@@ -212,7 +221,7 @@ Shader::Followed Shader::follow(const Receiver& at, glm::dvec3 direction, Sample
     out.direction =
         back ? glm::reflect(out.direction, normal)
              : glm::refract(out.direction, normal, leaving ? kWaterIndex : 1.0 / kWaterIndex);
-    if (!back) out.share *= through_water_surface(!leaving);
+    if (!back) out.share *= through_water_surface(medium, leaving ? world::kAir : surface->block);
     from.point = point + normal * (back ? kOffSurface : -kOffSurface);
   }
   out.share = glm::dvec3(0.0);
@@ -685,7 +694,8 @@ void Shader::pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine,
   }
   passage.radiance += passage.through * (reached.mirrored + reflected * mirrored);
   passage.through *= 1.0 - reflected;
-  if (type.liquid) passage.through *= through_water_surface(entering);
+  const world::BlockId next = entering ? layer.block : world::kAir;
+  passage.through *= through_water_surface(passage.medium, next);
   if (!wavy) {
     const glm::dvec3 place = on_plane(layer, tracer_.lattice_point(layer.island, ray.origin),
                                       tracer_.lattice_vector(layer.island, fine));
@@ -694,7 +704,7 @@ void Shader::pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine,
     passage.through *= 1.0 - texel.w;
   }
   passage.light_in = reached.light;
-  passage.medium = entering ? layer.block : world::kAir;
+  passage.medium = next;
 }
 
 Seen Shader::through_media(const Trace& trace, glm::dvec3 direction, glm::dvec3 fine, Seen behind,

@@ -222,7 +222,11 @@ void BounceLight::forget_voxel(std::size_t number) {
 BounceLight::Light BounceLight::reflected(const Face& face, Light light) const {
   const glm::vec3 share =
       face.block < albedo_.size() ? albedo_[face.block][face.direction] / kPi : glm::vec3(0.0f);
-  return light.tint(face.depth == 0 ? share : share * left_of(face));
+  light.tint(share);
+  if (face.depth == 0) return light;
+  const glm::vec3 lamps = light.lamps;  // may stand in the water
+  light.tint(left_of(face)).lamps = lamps;
+  return light;
 }
 
 // --- Water ---
@@ -520,7 +524,8 @@ void BounceLight::follow(int step, int part, std::span<const SeenSky> seen,
 
 std::size_t BounceLight::bytes() const {
   std::size_t bytes = numbers_.size() * sizeof(Number) + faces_.size() * sizeof(Face) +
-                      sources_.size() * sizeof(sources_[0]) + readers_.size() * sizeof(Number);
+                      sources_.size() * sizeof(sources_[0]) + readers_.size() * sizeof(Number) +
+                      water_.size() * sizeof(Water);
   for (const std::vector<Several>& several : several_) bytes += several.size() * sizeof(Several);
   for (const std::vector<PackedLight>& light : leaving_)
     bytes += light.size() * sizeof(PackedLight);

@@ -32,6 +32,7 @@ BodyLight light_of_body(Surface s, Depth depth, const uint index, const uint fir
   float visibility = surface_visibility(asked, body.to_light, first_cascade, faces) * light_through_clouds(index, s.position);
   bool reached = n_dot_l > 0.0 && !shaded;
   vec3 share = way.share * visibility;
+  if (kUnderWater) share *= lit_again(depth);
   if (kGlass && index == frame.glass_body) share *= depth.through_glass;
   return BodyLight(way.to_light, reached ? body.irradiance * share : vec3(0.0), n_dot_l);
 }

@@ -47,7 +47,7 @@ vec3 left_on_way_down(Depth depth) { return exp(-1.18 * depth.extinction * depth
 // optical depth x, 0.475 exp(-4.7 x) of it, to 0.015. Of an albedo of 0.45: what it is, light at fewer pixels does not know.
 vec3 lit_again(Depth depth) {
   vec3 twice = left_on_way_down(depth) * left_on_way_down(depth);
-  return 1.0 / (1.0 - 0.45 * 0.475 * twice * twice);
+  return depth.blocks > 0.0 ? 1.0 / (1.0 - 0.45 * 0.475 * twice * twice) : vec3(1.0);
 }
 
 // How a body's light comes to a place.
@@ -61,8 +61,7 @@ BodyWay body_way(Depth depth, vec3 to_light) {
   float cosine = dot(depth.up, to_light);
   vec3 bent = -refract(-to_light, depth.up, 1.0 / kWaterIndex);
   float inside = max(dot(depth.up, bent), 0.1);
-  vec3 share = exp(-depth.extinction * (depth.blocks / inside)) * lit_again(depth);
-  share *= (1.0 - fresnel(cosine, false, kWaterIndex)) * max(cosine, 0.0) / inside;
+  vec3 share = exp(-depth.extinction * (depth.blocks / inside)) * ((1.0 - fresnel(cosine, false, kWaterIndex)) * max(cosine, 0.0) / inside);
   return depth.blocks > 0.0 ? BodyWay(bent, share) : BodyWay(to_light, vec3(1.0));
 }
 
@@ -81,5 +80,5 @@ bool shaded_in_water(Depth depth, vec3 p, vec3 normal, vec3 to_light, const uint
 }
 
 // Light of the sky that comes to a place under an open surface, of what would without water.
-vec3 sky_share(Depth depth) { return depth.blocks > 0.0 ? 0.933 * left_on_way_down(depth) * lit_again(depth) : vec3(1.0); }
+vec3 sky_share(Depth depth) { return depth.blocks > 0.0 ? 0.933 * left_on_way_down(depth) : vec3(1.0); }
 #endif

@@ -206,8 +206,9 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     through *= 1.0 - foam;
     colour += through * (reach.mirrored + reflected * mirrored_sky);
     through *= 1.0 - reflected;
-    // Radiance goes with the square of the index: in water a cone holds what comes from the air's half space.
-    if (m.liquid != 0u) through *= entering ? 1.0 / (kWaterIndex * kWaterIndex) : kWaterIndex * kWaterIndex;
+    // Radiance goes with the square of the index: in water a cone holds what comes from the air's half space. Glass is as thin as if it had none.
+    bool from_water = materials[medium].liquid != 0u, into_water = entering && m.liquid != 0u;
+    if (from_water != into_water) through *= into_water ? 1.0 / (kWaterIndex * kWaterIndex) : kWaterIndex * kWaterIndex;
     // What the texture covers (the frame of a pane) is a diffuse surface.
     for (int once = wavy ? 0 : 1; once > 0; --once) {
       vec4 texel = surface_texel(word, ray, t, 1u);

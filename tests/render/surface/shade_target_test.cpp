@@ -100,7 +100,7 @@ TEST_F(ShadeTargets, TheWayToThePictureDoesNotShow) {
   }
 }
 
-TEST_F(ShadeTargets, WaterThatIsHiddenKeepsNoRadianceAndDoesNotShow) {
+TEST_F(ShadeTargets, WaterThatIsHiddenDoesNotShow) {
   add(pond_behind_a_wall, {0, -1, 0}, {1, 0, 1});
   for (const int rate : {1, 2, 4}) {
     SCOPED_TRACE(rate);

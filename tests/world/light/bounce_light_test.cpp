@@ -411,6 +411,14 @@ TEST(BounceLight, WhatABedSendsHasPassedItsWaterTwice) {
                    wet = Found(stone, kRed, {}, water).bounced({0, 8, 0}, 3, even);
   const glm::dvec3 left(left_by_water(3.0f));
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(wet[c] / dry[c], left[c], 0.03 * left[c]) << c;
+  // A lamp may stand in the water itself: it loses nothing, as elsewhere.
+  const test::Lamps lamps{{{0, 2, 0}}, 8.0f};
+  const glm::dvec3 over_dry =
+                       lamps_of(test::record_of(Found(stone, kRed, lamps).faces(), {0, 8, 0}, 3)),
+                   over_wet = lamps_of(
+                       test::record_of(Found(stone, kRed, lamps, water).faces(), {0, 8, 0}, 3));
+  EXPECT_GT(over_dry.x, 0.0);
+  for (int c = 0; c < 3; ++c) EXPECT_DOUBLE_EQ(over_wet[c], over_dry[c]) << c;
 }
 
 }  // namespace
