@@ -6,13 +6,19 @@
 #include <numbers>
 
 #include "tests/reference/made_scenes.h"
+#include "tests/water_laws.h"
 #include "tools/reference/media.h"
 #include "tools/reference/shade.h"
 
 namespace skerry::reference {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kIndex = 1.333;
+using water_laws::bent_cosine;
+using water_laws::fresnel_at;
+using water_laws::kIndex;
+using water_laws::over_hemisphere;
+
+constexpr double kPi = std::numbers::pi;
 constexpr int kDeep = 4;
 constexpr glm::dvec3 kBed{0.5, -kDeep + 1e-6, 0.5};
 
@@ -27,15 +33,6 @@ glm::dvec3 extinction_of(world::BlockId block) {
   const world::BlockType& type = world::block_types()[block];
   const auto& a = type.absorption;
   return glm::dvec3(a[0], a[1], a[2]) + static_cast<double>(type.scattering);
-}
-
-/// Schlick's, from the air.
-double fresnel_at(double cosine) {
-  const double upright = std::pow((kIndex - 1.0) / (kIndex + 1.0), 2.0);
-  return upright + (1.0 - upright) * std::pow(1.0 - cosine, 5.0);
-}
-double bent_cosine(double cosine) {
-  return std::sqrt(1.0 - (1.0 - cosine * cosine) / (kIndex * kIndex));
 }
 
 glm::dvec3 irradiance_at(const Scene& scene, glm::dvec3 point, glm::dvec3 normal,
@@ -107,30 +104,10 @@ TEST(ReferenceUnderWater, NothingIsLostOfLightThatIsMirroredBack) {
   EXPECT_LE(seen.z, kPi);
 }
 
-/// The same from within: all of it beyond the critical angle.
-double fresnel_within(double cosine) {
-  const double sine2 = kIndex * kIndex * (1.0 - cosine * cosine);
-  return sine2 >= 1.0 ? 1.0 : fresnel_at(std::sqrt(1.0 - sine2));
-}
-/// 2 times the integral of f(c) c over the cosine c.
-template <class Fn>
-double over_hemisphere(const Fn& f) {
-  constexpr int kSteps = 4000;
-  double sum = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double cosine = (i + 0.5) / kSteps;
-    sum += 2.0 / kSteps * cosine * f(cosine);
-  }
-  return sum;
-}
 /// Radiance that a wide bed under so much optical depth sends up, within the water, if radiance 1
 /// comes from all of the sky. The surface mirrors a part back to it, again and again.
 double sent_by_bed(double albedo, double depth) {
-  const double comes = over_hemisphere(
-      [&](double c) { return (1.0 - fresnel_at(c)) * std::exp(-depth / bent_cosine(c)); });
-  const double back =
-      over_hemisphere([&](double c) { return fresnel_within(c) * std::exp(-2.0 * depth / c); });
-  return albedo * comes / (1.0 - albedo * back);
+  return albedo * water_laws::comes_down(depth) / (1.0 - albedo * water_laws::mirrored_back(depth));
 }
 
 /// Level water one block deep over a bed that swallows nothing, seen from eight blocks above it.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/exponential.hpp>
 #include <numbers>
 #include <utility>
 
@@ -78,11 +77,7 @@ bool is_liquid(const shared::Quad& quad) {
 
 glm::vec3 left_by_water(float blocks) {
   constexpr float kIndex = 1.333f, kAlbedo = 0.45f, kMirroredBack = 0.475f;
-  const BlockType& water = block_types()[block::kWater];
-  const glm::vec3 depth =
-      blocks *
-      (glm::vec3(water.absorption[0], water.absorption[1], water.absorption[2]) + water.scattering);
-  const glm::vec3 down = glm::exp(-1.18f * depth), twice = down * down;
+  const glm::vec3 down = left_by_glass(block::kWater, 1.18f * blocks), twice = down * down;
   return 0.933f * 0.933f / (kIndex * kIndex) * twice /
          (1.0f - kAlbedo * kMirroredBack * twice * twice);
 }

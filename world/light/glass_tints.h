@@ -76,7 +76,7 @@ class GlassTints {
   std::array<Octant, kOctants> octants_;
 };
 
-/// What is left of light after a way through stained glass. @param blocks its length.
+/// What is left of light after a way through stained glass or water. @param blocks its length.
 glm::vec3 left_by_glass(BlockId block, float blocks);
 
 }  // namespace skerry::world

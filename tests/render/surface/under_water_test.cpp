@@ -5,13 +5,19 @@
 #include <numbers>
 
 #include "tests/render/renderer_on_gpu.h"
+#include "tests/water_laws.h"
 #include "world/voxel/blocks.h"
 
 namespace skerry::render {
 namespace {
 
+using water_laws::bent_cosine;
+using water_laws::fresnel_at;
+using water_laws::kIndex;
+using water_laws::mirrored_back;
+
 constexpr VkExtent2D kSize{97, 97};
-constexpr double kIndex = 1.333, kDeep = 4.0, kHigh = 120.0;
+constexpr double kDeep = 4.0, kHigh = 120.0;
 constexpr double kSun = 3000.0;         // irradiance
 constexpr double kHazeABlock = 0.0005;  // what clear air takes by day
 constexpr int kRoofEnd = 32;            // x
@@ -37,27 +43,6 @@ const double kScattering =
 glm::dvec3 extinction_of_water() {
   return glm::dvec3(kAbsorption[0], kAbsorption[1], kAbsorption[2]) + kScattering;
 }
-double fresnel_at(double cosine) {
-  const double upright = std::pow((kIndex - 1.0) / (kIndex + 1.0), 2.0);
-  return upright + (1.0 - upright) * std::pow(1.0 - cosine, 5.0);
-}
-double bent_cosine(double cosine) {
-  return std::sqrt(1.0 - (1.0 - cosine * cosine) / (kIndex * kIndex));
-}
-
-/// Of what a bed sends up through so much optical depth, the part that comes back to it from the
-/// surface.
-double mirrored_back(double depth) {
-  constexpr int kSteps = 4000;
-  double sum = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double cosine = (i + 0.5) / kSteps, sine2 = kIndex * kIndex * (1.0 - cosine * cosine);
-    sum += 2.0 * cosine / kSteps * std::exp(-2.0 * depth / cosine) *
-           (sine2 >= 1.0 ? 1.0 : fresnel_at(std::sqrt(1.0 - sine2)));
-  }
-  return sum;
-}
-
 class UnderWater : public RendererOnGpu {
  protected:
   const std::vector<IslandPlacement> islands_{{{}, {1.0, 0.0, 0.0, 0.0}, 300.0}};

@@ -13,6 +13,7 @@
 #include <optional>
 #include <random>
 
+#include "tests/water_laws.h"
 #include "tests/world/light/voxel_rooms.h"
 #include "world/light/sky_transfer.h"
 #include "world/voxel/blocks.h"
@@ -364,33 +365,16 @@ TEST(BounceLight, AClosedRoomHoldsItsLampsLightOnceForEachReflection) {
 // Between the air and a wide level bed: of light that comes evenly, what Fresnel's, Snell's and
 // Beer's laws leave on both ways, and what the surface mirrors back to the bed again and again.
 TEST(BounceLight, WaterLeavesOfABedsLightWhatFresnelSnellAndBeerDo) {
-  constexpr double kIndex = 1.333, kAlbedo = 0.45;
-  const auto fresnel = [](double c) {
-    const double upright = std::pow((kIndex - 1.0) / (kIndex + 1.0), 2.0);
-    return upright + (1.0 - upright) * std::pow(1.0 - c, 5.0);
-  };
-  const auto bent = [](double c) { return std::sqrt(1.0 - (1.0 - c * c) / (kIndex * kIndex)); };
-  const auto over_hemisphere = [](const auto& f) {
-    constexpr int kSteps = 4000;
-    double sum = 0.0;
-    for (int i = 0; i < kSteps; ++i)
-      sum += 2.0 * (i + 0.5) / kSteps / kSteps * f((i + 0.5) / kSteps);
-    return sum;
-  };
+  constexpr double kAlbedo = 0.45;
   const BlockType& water = block_types()[block::kWater];
   for (const double blocks : {0.5, 1.0, 2.0, 4.0}) {
     const glm::vec3 left = left_by_water(static_cast<float>(blocks));
     for (std::size_t c = 0; c < 3; ++c) {
       const double depth = blocks * static_cast<double>(water.absorption[c] + water.scattering);
-      const double down = over_hemisphere(
-          [&](double cosine) { return (1.0 - fresnel(cosine)) * std::exp(-depth / bent(cosine)); });
-      const double back = over_hemisphere([&](double cosine) {
-        const double sine2 = kIndex * kIndex * (1.0 - cosine * cosine);
-        return std::exp(-2.0 * depth / cosine) *
-               (sine2 >= 1.0 ? 1.0 : fresnel(std::sqrt(1.0 - sine2)));
-      });
+      const double down = water_laws::comes_down(depth);
       // Up, along the same rays as down: radiance goes with the square of the index.
-      const double expected = down * down / (kIndex * kIndex) / (1.0 - kAlbedo * back);
+      const double expected = down * down / (water_laws::kIndex * water_laws::kIndex) /
+                              (1.0 - kAlbedo * water_laws::mirrored_back(depth));
       EXPECT_NEAR(static_cast<double>(left[static_cast<int>(c)]), expected, 0.02 * expected)
           << blocks << ' ' << c;
     }
