@@ -85,6 +85,10 @@ const Meeting* Shader::leaves_water(const Trace& trace, glm::dvec3 direction) co
   return nullptr;
 }
 
+world::BlockId Shader::medium_behind(const Meeting& layer, glm::dvec3 direction) const {
+  return leaves(layer, tracer_.lattice_vector(layer.island, direction)) ? world::kAir : layer.block;
+}
+
 /// What is left of light along a ray up to a distance [blocks].
 /// @param medium that the ray begins in.
 glm::dvec3 Shader::left_by_media(const Trace& trace, glm::dvec3 direction, double to,
@@ -98,8 +102,7 @@ glm::dvec3 Shader::left_by_media(const Trace& trace, glm::dvec3 direction, doubl
   for (const Meeting& layer : trace.layers) {
     if (layer.t > to) break;
     advance(layer.t);
-    medium =
-        leaves(layer, tracer_.lattice_vector(layer.island, direction)) ? world::kAir : layer.block;
+    medium = medium_behind(layer, direction);
   }
   // A medium without an end lets nothing through.
   if (medium != world::kAir) advance(to);
@@ -205,15 +208,15 @@ Shader::Followed Shader::follow(const Receiver& at, glm::dvec3 direction, Sample
     world::BlockId medium = in ? in->block : world::kAir;
     out.share *= left_by_media(trace, out.direction, end, medium);
     for (auto layer = trace.layers.begin(); layer != surface && layer->t < end; ++layer) {
-      const bool out_of = leaves(*layer, tracer_.lattice_vector(layer->island, out.direction));
-      const world::BlockId next = out_of ? world::kAir : layer->block;
+      const world::BlockId next = medium_behind(*layer, out.direction);
       out.share *= through_water_surface(std::exchange(medium, next), next);
     }
     if (!found) {
       out.hit = trace.hit;
       return out;
     }
-    const bool leaving = leaves(*surface, tracer_.lattice_vector(surface->island, out.direction));
+    const world::BlockId behind = medium_behind(*surface, out.direction);
+    const bool leaving = behind == world::kAir;
     const glm::dvec3 normal = tracer_.normal(surface->island, surface->face);
     const glm::dvec3 point = from.point + out.direction * surface->t;
     const double mirrored = fresnel(-glm::dot(out.direction, normal), leaving, kWaterIndex);
@@ -221,7 +224,7 @@ Shader::Followed Shader::follow(const Receiver& at, glm::dvec3 direction, Sample
     out.direction =
         back ? glm::reflect(out.direction, normal)
              : glm::refract(out.direction, normal, leaving ? kWaterIndex : 1.0 / kWaterIndex);
-    if (!back) out.share *= through_water_surface(medium, leaving ? world::kAir : surface->block);
+    if (!back) out.share *= through_water_surface(medium, behind);
     from.point = point + normal * (back ? kOffSurface : -kOffSurface);
   }
   out.share = glm::dvec3(0.0);

@@ -57,6 +57,8 @@ class Shader {
   Way way_of_body(const Receiver& at, glm::dvec3 to_light) const;
   glm::dvec3 left_of_body(const Receiver& at, glm::dvec3 to_light, world::BlockId medium) const;
   const Meeting* leaves_water(const Trace& trace, glm::dvec3 direction) const;
+  /// What a ray goes on in behind a surface of water or glass.
+  world::BlockId medium_behind(const Meeting& layer, glm::dvec3 direction) const;
   glm::dvec3 left_by_media(const Trace& trace, glm::dvec3 direction, double to,
                            world::BlockId medium) const;
   bool body_seen(const Receiver& at, glm::dvec3 to_light) const;
