@@ -335,7 +335,7 @@ Result<bool> App::draw_first_frames(const PlayLoop::Layout& layout) {
   const auto draw_one = [&](VkExtent2D size) -> Result<void> {
     const int used = view.renderer().pipelines_created();
     const SceneView::Moment now = world_ ? world_->moment() : backdrop_->moment();
-    if (auto in = view.stream(now.camera, now.world_time_s); !in) return in;
+    if (auto in = view.stream(now); !in) return in;
     if (shown && !view.complete() && clock_.seconds() < *first_frames_until_s_) {
       // A frame of half of a view would need programs that no later one does.
       std::this_thread::sleep_for(std::chrono::duration<double>(kLoadingFrame));
@@ -400,7 +400,7 @@ Result<bool> App::show_again(const PlayLoop::Layout& layout) {
 Result<bool> App::draw_backdrop(const PlayLoop::Layout& layout) {
   SceneView& view = backdrop_->view();
   const SceneView::Moment now = backdrop_->moment();
-  if (const auto done = view.stream(now.camera, now.world_time_s); !done) return done.error();
+  if (const auto done = view.stream(now); !done) return done.error();
   const platform::FramebufferSize window_px = window_.framebuffer_size();
   const std::optional<gpu::SwapchainFrame> frame =
       presenter_->acquire({window_px.width, window_px.height});

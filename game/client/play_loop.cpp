@@ -117,8 +117,7 @@ Result<bool> PlayLoop::draw(const Layout& layout) {
   // A screenshot's command has no levels of detail that change.
   std::optional<double> blend_s;
   if (!screenshot_wanted_) blend_s = frame_s_;
-  if (const auto done = view_->stream(now.camera, now.world_time_s, blend_s); !done)
-    return done.error();
+  if (const auto done = view_->stream(now, blend_s); !done) return done.error();
   for (std::string& notice : view_->notices()) said_.push_back(std::move(notice));
   const platform::FramebufferSize window_px = window_.framebuffer_size();
   const std::optional<gpu::SwapchainFrame> frame =

@@ -38,9 +38,11 @@ struct IslandLight::Search {
   bool reach_taken = false;
   std::unique_ptr<world::SkyTransfer> transfer;  // of an earlier look, to be brought up to date
   bool keep = false;                             // for the next one
-  Seams seams;                                   // of the island as the look begins
-  Skies known;                                   // alike
-  std::map<world::IVec3, Closed> closings;       // alike; then of what is found
+  world::KeyDirections keys{};
+  std::optional<std::size_t> rekeyed;                 // slot that the earlier look had otherwise
+  Seams seams;                                        // of the island as the look begins
+  Skies known;                                        // alike
+  std::map<world::IVec3, Closed> closings;            // alike; then of what is found
   std::atomic<int> parts_left = world::kOctants + 1;  // octants, and lamps; then of a step
   Skies found;  // with `seams` closed; what is as `known` has it is the same object
   world::LightCache* cache = nullptr;
@@ -169,7 +171,7 @@ void IslandLight::run(WorkerThreads& threads, std::shared_ptr<Search> search) {
 
 void IslandLight::run_or_take(WorkerThreads& threads, std::shared_ptr<Search> search) {
   submit(threads, search->work, [&threads, search] {
-    const auto light = search->cache->find(search->chunks, kind_of(search->albedo));
+    const auto light = search->cache->find(search->chunks, kind_of(search->albedo), search->keys);
     if (!light) return run(threads, search);
     search->reaches = std::make_shared<const Reaches>(Reaches{search->chunks, light->reaches});
     search->reach_done = true;
@@ -181,10 +183,15 @@ void IslandLight::run_or_take(WorkerThreads& threads, std::shared_ptr<Search> se
 void IslandLight::look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search) {
   submit(threads, search->work, [&threads, search] {
     const bool edited = search->transfer != nullptr;
-    if (edited && search->transfer->edit(search->chunks))
-      return end_look(*search, search->transfer->faces());
-    search->transfer = std::make_unique<world::SkyTransfer>(
-        search->chunks, search->albedo, world::BounceLight::kBounces, edited ? kSpare : 0);
+    if (edited && search->transfer->edit(search->chunks)) {
+      if (!search->rekeyed || !search->transfer->has_bounces())
+        return end_look(*search, search->transfer->faces());
+      search->transfer->set_key(*search->rekeyed, *search->keys[*search->rekeyed]);
+      return follow_key(threads, search, 0);
+    }
+    search->transfer = std::make_unique<world::SkyTransfer>(search->chunks, search->albedo,
+                                                            world::BounceLight::kBounces,
+                                                            edited ? kSpare : 0, search->keys);
     for (int part = 0; part <= world::kOctants; ++part)
       submit(threads, search->work, [&threads, search, part] {
         if (part < world::kOctants)
@@ -208,6 +215,17 @@ void IslandLight::follow_bounces(WorkerThreads& threads, std::shared_ptr<Search>
     submit(threads, search->work, [&threads, search, step, part] {
       search->transfer->follow_bounces(step, part);
       if (search->parts_left.fetch_sub(1) == 1) follow_bounces(threads, search, step + 1);
+    });
+}
+
+void IslandLight::follow_key(WorkerThreads& threads, std::shared_ptr<Search> search, int step) {
+  if (step == search->transfer->bounce_steps())
+    return end_look(*search, search->transfer->take_key(*search->rekeyed));
+  search->parts_left = world::BounceLight::kParts;
+  for (int part = 0; part < world::BounceLight::kParts; ++part)
+    submit(threads, search->work, [&threads, search, step, part] {
+      search->transfer->follow_key(*search->rekeyed, step, part);
+      if (search->parts_left.fetch_sub(1) == 1) follow_key(threads, search, step + 1);
     });
 }
 
@@ -239,28 +257,41 @@ struct IslandLight::Rank {
   double distance = 0.0;
   world::IslandLevel row;
   Island* island = nullptr;
+  std::optional<Key> key{};
 };
 
 /// Islands, the nearest first; those without a distance last.
-std::vector<IslandLight::Rank> IslandLight::by_distance(const Distances& distances) {
+std::vector<IslandLight::Rank> IslandLight::by_distance(const NearIslands& islands) {
   std::vector<Rank> out;
   for (auto& [row, island] : islands_) {
-    const auto found = distances.find(row);
-    out.push_back(
-        {found == distances.end() ? std::numeric_limits<double>::infinity() : found->second, row,
-         &island});
+    const auto found = islands.find(row);
+    if (found == islands.end())
+      out.push_back({std::numeric_limits<double>::infinity(), row, &island});
+    else
+      out.push_back({found->second.distance, row, &island, found->second.key});
   }
   std::ranges::sort(out, {}, [](const Rank& rank) { return std::pair(rank.distance, rank.row); });
   return out;
 }
 
-void IslandLight::begin(const world::IslandLevel& row, Island& island, bool keep) {
+void IslandLight::begin(const Rank& rank, bool is_near) {
+  Island& island = *rank.island;
   island.search = std::make_shared<Search>();
+  if (!is_near) island.keys = {};
+  // An edit is not to wait for it.
+  const bool edited = island.kept && island.asked != island.version;
+  if (is_near && rank.key && !edited) {
+    if (cache_) island.keys = {};  // all is found anew, whatever has been asked for before
+    const std::size_t slot = cache_ ? 0 : rank.key->slot;
+    island.search->rekeyed = slot;
+    island.keys[slot] = rank.key->direction;
+  }
+  island.search->keys = island.keys;
   island.search->chunks = island.chunks;
   island.search->work = work_;
   island.search->version = island.asked = island.version;
   island.search->sky = finds_ != Finds::kReach;
-  island.search->keep = keep && !cache_ && island.search->sky && row.level == 0;
+  island.search->keep = is_near && !cache_ && island.search->sky && rank.row.level == 0;
   island.search->transfer = std::move(island.kept);
   island.search->reaches_before = island.reaches;
   island.search->seams = island.seams;
@@ -275,27 +306,34 @@ void IslandLight::begin(const world::IslandLevel& row, Island& island, bool keep
 }
 
 void IslandLight::start(const world::Streamer& streamer,
-                        const std::function<Distances()>& distances) {
+                        const std::function<NearIslands()>& islands, bool now) {
   const bool is_new = std::ranges::any_of(islands_, [](const auto& one) {
     return !one.second.search && one.second.asked != one.second.version;
   });
-  if (!is_new && ++calls_with_nothing_new_ < kCallsToWait) return;
+  if (!is_new && !now && ++calls_with_nothing_new_ < kCallsToWait) return;
   calls_with_nothing_new_ = 0;
-  const std::vector<Rank> ranks = by_distance(distances());
+  const std::vector<Rank> ranks = by_distance(islands());
   bool busy = false;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
     Island& island = *ranks[i].island;
     if (i > kKept && island.kept) discard(std::move(island.kept));
     busy |= island.search || island.asked != island.version;
-    if (island.search || island.asked == island.version || !streamer.settled(ranks[i].row.island))
+    const bool rekey = i < kKept && ranks[i].key && (island.kept || now);
+    if (island.search || (island.asked == island.version && !rekey) ||
+        !streamer.settled(ranks[i].row.island))
       continue;
-    begin(ranks[i].row, island, i < kKept);
+    begin(ranks[i], i < kKept);
   }
-  // When there is nothing else to do, the nearest one is looked at once more for edits to come.
-  if (busy || ranks.empty() || cache_ || finds_ == Finds::kReach) return;
-  Island& nearest = *ranks.front().island;
-  const world::IslandLevel& row = ranks.front().row;
-  if (!nearest.kept && row.level == 0 && streamer.settled(row.island)) begin(row, nearest, true);
+  // When there is nothing else to do, the nearest one is looked at once more for edits to come, and
+  // others for what they are asked to have.
+  if (busy || cache_ || finds_ == Finds::kReach) return;
+  for (std::size_t i = 0; i < std::min(kKept, ranks.size()); ++i) {
+    const Island& island = *ranks[i].island;
+    const world::IslandLevel& row = ranks[i].row;
+    const bool missing = ranks[i].key || (i == 0 && row.level == 0);
+    if (island.search || island.kept || !missing || !streamer.settled(row.island)) continue;
+    return begin(ranks[i], true);
+  }
 }
 
 bool IslandLight::settled() const {
@@ -303,6 +341,11 @@ bool IslandLight::settled() const {
     return !one.second.search && one.second.asked == one.second.version &&
            one.second.guesses.empty();
   });
+}
+
+bool IslandLight::searching() const {
+  return std::ranges::any_of(islands_,
+                             [](const auto& one) { return one.second.search != nullptr; });
 }
 
 bool IslandLight::guesses() const {
@@ -329,7 +372,7 @@ void IslandLight::take_guesses(Island& island, int& most) {
 }
 
 IslandLight::Found IslandLight::guessed_of(const world::IslandLevel& row, Island& island) {
-  Found found{row, {}};
+  Found found{row, {}, island.said_keys};
   for (const auto& [at, sky] : island.known)
     found.chunks.push_back({at, sky, island.guessed.contains(at)});
   island.guessed.clear();
@@ -355,7 +398,8 @@ std::vector<IslandLight::FoundReach> IslandLight::poll_reach() {
 /// what was known of them until there is a guess.
 IslandLight::Found IslandLight::found_of(const world::IslandLevel& row, Island& island,
                                          Search& search) {
-  Found found{row, {}};
+  Found found{row, {}, search.keys};
+  island.said_keys = search.keys;
   Skies skies;
   island.guesses.clear();
   for (auto& [at, sky] : search.found) {
@@ -393,7 +437,7 @@ std::vector<IslandLight::Found> IslandLight::poll() {
     std::shared_ptr<Search> search = std::exchange(island.search, nullptr);
     if (search->keep) island.kept = std::move(search->transfer);
     if (!search->to_cache.empty())
-      cache_->keep(search->chunks, kind_of(search->albedo),
+      cache_->keep(search->chunks, kind_of(search->albedo), search->keys,
                    {search->reaches->found, std::move(search->to_cache)});
     if (finds_ != Finds::kReach) out.push_back(found_of(row, island, *search));
     discard(std::move(search));

@@ -2,8 +2,10 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -18,8 +20,8 @@ namespace skerry::game {
 /// The light of the sky on the islands that are resident, what their faces reflect to each other,
 /// and where their lamps can arrive, found on threads in the background. An island is looked at as
 /// a whole at first; of the nearest ones enough is kept that an edit has only that looked at again
-/// which it changes. What is found depends on the voxels alone. The frame thread calls everything
-/// here.
+/// which it changes. What is found depends on the voxels alone, and on the directions from which
+/// light of sun and moon is followed as it is. The frame thread calls everything here.
 class IslandLight {
  public:
   enum class Finds : std::uint8_t {
@@ -45,14 +47,27 @@ class IslandLight {
   void end_island(const world::IslandLevel& row);
   /// Looks at islands that have changed and whose chunks have all come: what is not there yet would
   /// let light into rooms that it closes. The nearest one first.
-  /// @param distances called when they are needed: of islands from the camera.
-  using Distances = std::map<world::IslandLevel, double>;
-  void start(const world::Streamer& streamer, const std::function<Distances()>& distances);
+  struct Key {
+    std::size_t slot = 0;
+    glm::vec3 direction{};
+  };
+  struct Near {
+    double distance = 0.0;   ///< of an island from the camera
+    bool keyed = false;      ///< sun or moon are followed as they are
+    std::optional<Key> key;  ///< and now from there
+  };
+  using NearIslands = std::map<world::IslandLevel, Near>;
+  /// @param islands called when they are needed. @param now they are, and a key is worth a look at
+  /// the whole island; else that has time.
+  void start(const world::Streamer& streamer, const std::function<NearIslands()>& islands,
+             bool now);
   /// Waits until all that was started has been found.
   void wait() { threads_.wait(); }
 
   /// Whether poll() has said all that follows from the chunks as they are.
   bool settled() const;
+  /// Whether threads look, or have, and poll() has not said what they found.
+  bool searching() const;
   /// Whether poll() has more to say of what has been found.
   bool guesses() const;
   /// Seconds that threads have computed so far.
@@ -66,6 +81,7 @@ class IslandLight {
   struct Found {
     world::IslandLevel row;
     std::vector<FoundChunk> chunks;  ///< ascending
+    world::KeyDirections keys{};     ///< from which light has been followed
   };
   /// What has been found of the sky since the last call. An island that has changed meanwhile is
   /// looked at again. What has waited for a thread for some calls is done at once, a chunk a call.
@@ -114,6 +130,7 @@ class IslandLight {
     std::shared_ptr<Search> search;
     std::unique_ptr<world::SkyTransfer> kept;                // of the version that was asked last
     std::shared_ptr<const Reaches> reaches;                  // alike
+    world::KeyDirections keys, said_keys;                    // alike; of `known`
     Skies known;                                             // as poll() last said, or says next
     std::map<world::IVec3, Closed> closings;                 // as the last look made them
     std::set<world::IVec3> guessed;                          // of `known`, since poll() last said
@@ -128,10 +145,11 @@ class IslandLight {
   static void run_or_take(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void look_at_sky(WorkerThreads& threads, std::shared_ptr<Search> search);
   static void follow_bounces(WorkerThreads& threads, std::shared_ptr<Search> search, int step);
+  static void follow_key(WorkerThreads& threads, std::shared_ptr<Search> search, int step);
   static void end_look(Search& search, Skies skies);
   struct Rank;
-  std::vector<Rank> by_distance(const Distances& distances);
-  void begin(const world::IslandLevel& row, Island& island, bool keep);
+  std::vector<Rank> by_distance(const NearIslands& islands);
+  void begin(const Rank& rank, bool is_near);
   /// Has a thread free what takes milliseconds to free.
   template <class T>
   void discard(T unused);

@@ -6,8 +6,8 @@
 
 #include "engine/core/check.h"
 #include "engine/render/scene/voxel_box.h"
+#include "game/sections/section_record.h"
 #include "game/view/scene_view.h"
-#include "game/view/section_record.h"
 
 namespace skerry::game {
 namespace {

@@ -19,10 +19,10 @@
 #include "engine/render/scene/section_parts.h"
 #include "game/panorama/load_panorama.h"
 #include "game/player/player.h"
+#include "game/sections/section_record.h"
 #include "game/view/light_chunk.h"
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
-#include "game/view/section_record.h"
 #include "game/worlds/open_world.h"
 #include "world/islands/medium.h"
 #include "world/voxel/blocks.h"
@@ -183,8 +183,9 @@ void SceneView::update_streamer(const render::Camera& camera, double world_time_
   log_warning(notices_.back());
 }
 
-Result<void> SceneView::load_completely(const render::Camera& camera, double world_time_s,
-                                        std::optional<double> blend_s) {
+Result<void> SceneView::load_completely(const Moment& moment, std::optional<double> blend_s) {
+  const render::Camera& camera = moment.camera;
+  const double world_time_s = moment.world_time_s;
   blends_levels_ = blend_s.has_value();
   if (Result<void> ok = follow_settings(); !ok) return ok;
   do {
@@ -198,23 +199,13 @@ Result<void> SceneView::load_completely(const render::Camera& camera, double wor
   } while (!waiting_.empty() && show_less(camera));
   renderer_->set_upload_budget(UINT64_MAX);
   choose_levels(camera, world_time_s, {.keep = false, .blend_s = blend_s});
-  find_light(camera, world_time_s);
-  if (!island_light_) return {};
-  do {
-    island_light_->wait();
-    find_light(camera, world_time_s);
-  } while (island_light_->guesses());
-  while (hand_over_light(camera, world_time_s, UINT64_MAX)) renderer_->reclaim();
-  if (sky_light_.idle()) return {};
-  // Which islands have light must not depend on what was lit before.
-  if (indirect_) sky_light_.take_back(*indirect_, renderer_->mesh_uploader());
-  renderer_->reclaim();
-  while (hand_over_light(camera, world_time_s, UINT64_MAX)) renderer_->reclaim();
+  load_light(moment);
   return {};
 }
 
-Result<void> SceneView::stream(const render::Camera& camera, double world_time_s,
-                               std::optional<double> blend_s) {
+Result<void> SceneView::stream(const Moment& moment, std::optional<double> blend_s) {
+  const render::Camera& camera = moment.camera;
+  const double world_time_s = moment.world_time_s;
   blends_levels_ = blend_s.has_value();
   if (Result<void> ok = follow_settings(); !ok) return ok;
   renderer_->set_upload_budget(settings_.upload_budget_bytes);
@@ -233,8 +224,9 @@ Result<void> SceneView::stream(const render::Camera& camera, double world_time_s
     show_less(camera);
   }
   choose_levels(camera, world_time_s, {.keep = true, .blend_s = blend_s});
-  find_light(camera, world_time_s);
-  hand_over_light(camera, world_time_s, settings_.upload_budget_bytes);
+  key_fades_.advance();
+  find_light(moment, false);
+  hand_over_light(moment, settings_.upload_budget_bytes);
   return {};
 }
 
@@ -270,6 +262,7 @@ Result<void> SceneView::restart_with_less(const render::Camera& camera, const st
   occupancy_ = nullptr;
   indirect_ = nullptr;
   sky_light_.clear();
+  key_fades_.clear();
   weak_lamps_kept_ = false;
   streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
   show_less(camera);
@@ -366,73 +359,6 @@ bool SceneView::is_full() const {
   return static_cast<double>(memory.used) >= (1.0 - kForEdits) * static_cast<double>(memory.limit);
 }
 
-/// Has workers look for light where something has changed, and takes in what they have found.
-void SceneView::find_light(const render::Camera& camera, double world_time_s) {
-  if (!island_light_) return;
-  // What waits for memory would let light in.
-  if (waiting_.empty())
-    island_light_->start(*streamer_, [&] {
-      IslandLight::Distances distances;
-      for (const auto& [row, island] : near_islands(camera, world_time_s))
-        distances[row] = island.distance;
-      return distances;
-    });
-  for (IslandLight::FoundReach& found : island_light_->poll_reach())
-    light_field_.set_reach(found.section, std::move(found.reach));
-  for (IslandLight::Found& found : island_light_->poll())
-    if (island_slots_.contains(found.row)) sky_light_.add(std::move(found));
-}
-
-std::map<world::IslandLevel, SkyLightFeed::NearIsland> SceneView::near_islands(
-    const render::Camera& camera, double world_time_s) const {
-  std::map<world::IslandLevel, SkyLightFeed::NearIsland> islands;
-  const world::IslandPoses poses = world_->poses(world_time_s);
-  for (const auto& [row, slot] : near_slots_) {
-    const world::IslandSpec& spec = islands_[slot].spec;
-    const double centre =
-        glm::length(world::difference_blocks(place(camera.position), poses.of(spec).origin));
-    islands[row] = {slot, std::max(0.0, centre - spec.bounding_radius)};
-  }
-  return islands;
-}
-
-/// Hands light of the sky to the renderer until `most_bytes` wait to be copied. @return whether
-/// there is more to hand over.
-bool SceneView::hand_over_light(const render::Camera& camera, double world_time_s,
-                                std::uint64_t most_bytes) {
-  if (sky_light_.idle()) return false;
-  if (!indirect_store()) return false;
-  const bool more = sky_light_.hand_over(*indirect_, renderer_->mesh_uploader(),
-                                         near_islands(camera, world_time_s), most_bytes);
-  if (const std::optional<std::string> why = sky_light_.refusal()) refuse_light(*why);
-  return more;
-}
-
-/// The store of the sky's light, made when it is first needed; null: there is no memory for it.
-render::IndirectStore* SceneView::indirect_store() {
-  if (indirect_) return indirect_;
-  Result<render::IndirectStore*> made = renderer_->indirect();
-  if (!made) {
-    refuse_light(made.error().message);
-    return nullptr;
-  }
-  return indirect_ = *made;
-}
-
-/// A far section hides next to nothing of the sky from itself.
-void SceneView::open_to_sky(std::uint32_t slot) {
-  // What is kept, not what is drawn at the moment: light that is turned off and on again is there.
-  if (!island_light_ || island_light_->finds() == IslandLight::Finds::kReach) return;
-  if (render::IndirectStore* store = indirect_store())
-    store->open_island(renderer_->mesh_uploader(), slot);
-}
-
-void SceneView::refuse_light(const std::string& why) {
-  if (std::exchange(light_refused_, true)) return;
-  notices_.push_back("some islands have no light of the sky: " + why);
-  log_warning(notices_.back());
-}
-
 void SceneView::remove_section(const world::SectionKey& key) {
   const auto found = sections_.find(key);
   SKERRY_ASSERT(found != sections_.end());
@@ -460,6 +386,7 @@ void SceneView::release_island(const world::IslandLevel& row) {
   if (occupancy_ && !islands_[slot->second].far) occupancy_->end_island(uploader, slot->second);
   if (indirect_) indirect_->end_island(uploader, slot->second);
   sky_light_.remove(row);
+  key_fades_.remove(row);
   if (island_light_) island_light_->end_island(row);
   near_slots_.erase(row);
   island_slots_.erase(slot);
@@ -539,10 +466,15 @@ void SceneView::place_islands(double world_time_s) {
     const IslandEntry& entry = islands_[slot];
     const world::Pose pose = poses.of(entry.spec);
     const bool hides = !entry.far && entry.sections != 0;
-    placements_[slot] = {
-        fixed(pose.origin), pose.rotation, entry.spec.bounding_radius,
-        entry.far,          entry.level,   hides ? land_of(entry.spec) : render::IslandLand{}};
+    placements_[slot] = {fixed(pose.origin),
+                         pose.rotation,
+                         entry.spec.bounding_radius,
+                         entry.far,
+                         entry.level,
+                         hides ? land_of(entry.spec) : render::IslandLand{},
+                         {}};
   });
+  for (const auto& [row, slot] : near_slots_) placements_[slot].keyed = key_fades_.of(row);
 }
 
 std::vector<PlacedIsland> SceneView::placed_islands(const render::FixedPos& camera) const {

@@ -17,11 +17,12 @@
 #include "engine/gpu/device/resources.h"
 #include "engine/render/renderer/renderer.h"
 #include "game/scene_file/options.h"
+#include "game/sections/level_blends.h"
+#include "game/sections/section_cuts.h"
 #include "game/view/island_light.h"
-#include "game/view/level_blends.h"
+#include "game/view/key_fades.h"
 #include "game/view/light_field.h"
 #include "game/view/scene_cache.h"
-#include "game/view/section_cuts.h"
 #include "game/view/sky_light_feed.h"
 #include "game/view/view_fit.h"
 #include "world/islands/world.h"
@@ -51,34 +52,6 @@ class SceneView {
   render::Renderer& renderer() { return *renderer_; }
   Settings& settings() { return settings_; }  ///< may be changed between frames
 
-  /// Waits until all that belongs to this camera is generated and meshed, then queues it in an
-  /// order that does not depend on threads. The next draw() uploads everything at once.
-  /// What memory does not hold is left out, the farthest detail first (notices() says so).
-  /// @param blend_s see stream(). Errors: out of memory for a frame's own tables.
-  Result<void> load_completely(const render::Camera& camera, double world_time_s,
-                               std::optional<double> blend_s = {});
-  /// Takes in what the workers have ready, within the frame's budget; never waits.
-  /// What memory does not hold is left out, the farthest detail first (notices() says so).
-  /// @param blend_s seconds since the last call, over which levels of detail change pixel by pixel
-  /// (LevelBlends); none: at once. Errors: out of memory for a frame's own tables.
-  Result<void> stream(const render::Camera& camera, double world_time_s,
-                      std::optional<double> blend_s = {});
-  /// Whether levels of detail are changing.
-  bool blending() const { return !blends_.idle(); }
-  /// Whether everything within view distance has been handed to the renderer.
-  bool complete() const { return streamer_->complete() && waiting_.empty(); }
-  /// Whether the light that stays on faces is that of the world as it is, and the renderer has it.
-  bool light_settled() const {
-    return (!island_light_ || island_light_->settled()) && sky_light_.idle();
-  }
-  /// Seconds that threads have looked for that light so far.
-  double light_seconds() const { return island_light_ ? island_light_->work_seconds() : 0.0; }
-  /// Lines for the player since the last call: that memory is full, and what is shown instead.
-  std::vector<std::string> notices() { return std::exchange(notices_, {}); }
-  /// Of the last draw: lights handed to the renderer, and what it took to gather them.
-  std::size_t lights() const { return lights_.lights.size(); }
-  double gather_ms() const { return gather_ms_; }
-
   /// A block to outline, and how far it is dug.
   struct MarkedBlock {
     std::uint64_t island = 0;
@@ -97,6 +70,33 @@ class SceneView {
     std::optional<double> exposure_ev = {};
     std::optional<MarkedBlock> marked = {};
   };
+
+  /// Waits until all that belongs to a moment is generated and meshed, then queues it in an
+  /// order that does not depend on threads. The next draw() uploads everything at once.
+  /// What memory does not hold is left out, the farthest detail first (notices() says so).
+  /// @param blend_s see stream(). Errors: out of memory for a frame's own tables.
+  Result<void> load_completely(const Moment& moment, std::optional<double> blend_s = {});
+  /// Takes in what the workers have ready, within the frame's budget; never waits.
+  /// What memory does not hold is left out, the farthest detail first (notices() says so).
+  /// @param blend_s seconds since the last call, over which levels of detail change pixel by pixel
+  /// (LevelBlends); none: at once. Errors: out of memory for a frame's own tables.
+  Result<void> stream(const Moment& moment, std::optional<double> blend_s = {});
+  /// Whether levels of detail are changing.
+  bool blending() const { return !blends_.idle(); }
+  /// Whether everything within view distance has been handed to the renderer.
+  bool complete() const { return streamer_->complete() && waiting_.empty(); }
+  /// Whether the light that stays on faces is that of the world as it is, and the renderer has it.
+  bool light_settled() const {
+    return (!island_light_ || island_light_->settled()) && sky_light_.idle();
+  }
+  /// Seconds that threads have looked for that light so far.
+  double light_seconds() const { return island_light_ ? island_light_->work_seconds() : 0.0; }
+  /// Lines for the player since the last call: that memory is full, and what is shown instead.
+  std::vector<std::string> notices() { return std::exchange(notices_, {}); }
+  /// Of the last draw: lights handed to the renderer, and what it took to gather them.
+  std::size_t lights() const { return lights_.lights.size(); }
+  double gather_ms() const { return gather_ms_; }
+
   /// See render::Renderer::draw. A fixed exposure in the settings goes over the moment's.
   Result<std::uint64_t> draw(
       const Moment& moment, VkExtent2D size,
@@ -138,10 +138,11 @@ class SceneView {
   Result<void> restart_with_less(const render::Camera& camera, const std::string& why);
   Result<void> add_section(const world::ReadySection& ready);
   void release_island(const world::IslandLevel& row);
-  void find_light(const render::Camera& camera, double world_time_s);
-  std::map<world::IslandLevel, SkyLightFeed::NearIsland> near_islands(const render::Camera& camera,
-                                                                      double world_time_s) const;
-  bool hand_over_light(const render::Camera& camera, double world_time_s, std::uint64_t most_bytes);
+  void load_light(const Moment& moment);
+  void find_light(const Moment& moment, bool now);
+  IslandLight::NearIslands islands_to_light(const Moment& moment, bool now);
+  std::map<world::IslandLevel, SkyLightFeed::NearIsland> near_islands(const Moment& moment) const;
+  bool hand_over_light(const Moment& moment, std::uint64_t most_bytes);
   render::IndirectStore* indirect_store();
   void open_to_sky(std::uint32_t slot);
   void refuse_light(const std::string& why);
@@ -214,10 +215,12 @@ class SceneView {
   std::unique_ptr<WorkerThreads> light_threads_;  // of island_light_
   std::unique_ptr<IslandLight> island_light_;     // none: not wanted so far
   SkyLightFeed sky_light_;                        // what island_light_ has found
-  bool light_refused_ = false;                    // for want of memory, and that has been said
-  bool islands_left_out_ = false;                 // and that has been said
-  bool weak_lamps_kept_ = false;                  // by island_light_, not by light_field_
-  bool cloud_volumes_ = false;                    // what lamps light in the air, too
+  KeyFades key_fades_;                            // of what the renderer has of it
+  std::map<world::IslandLevel, glm::vec3> key_directions_;  // as last looked at
+  bool light_refused_ = false;     // for want of memory, and that has been said
+  bool islands_left_out_ = false;  // and that has been said
+  bool weak_lamps_kept_ = false;   // by island_light_, not by light_field_
+  bool cloud_volumes_ = false;     // what lamps light in the air, too
   LightField light_field_;
   FrameLights lights_;  // of the last frame
   double gather_ms_ = 0.0;

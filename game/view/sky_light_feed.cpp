@@ -17,7 +17,8 @@ glm::ivec3 place(const IslandLight::FoundChunk& chunk) {
 }
 
 render::ChunkSkyLight light_of(const IslandLight::FoundChunk& chunk) {
-  return {place(chunk), chunk.sky->table, chunk.sky->texels, chunk.changed, chunk.sky->tinted()};
+  return {place(chunk),  chunk.sky->table,        chunk.sky->texels,
+          chunk.changed, chunk.sky->parts.tinted, chunk.sky->parts.keyed};
 }
 
 /// Around all chunks. @pre there are some.
@@ -85,6 +86,7 @@ SkyLightFeed::Put SkyLightFeed::put(render::IndirectStore& store, gpu::Uploader&
   store.finish(uploader, entry.slot);
   entry.state = State::kShown;
   entry.unshown.clear();
+  shown_.emplace_back(entry.found.row, entry.found.keys);
   return Put::kDone;
 }
 

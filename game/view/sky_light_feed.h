@@ -38,6 +38,16 @@ class SkyLightFeed {
   /// been freed.
   bool hand_over(render::IndirectStore& store, gpu::Uploader& uploader,
                  const std::map<world::IslandLevel, NearIsland>& islands, std::uint64_t most_bytes);
+  /// Islands all of whose light the renderer has got since the last call, and the directions from
+  /// which that has been followed.
+  using Shown = std::vector<std::pair<world::IslandLevel, world::KeyDirections>>;
+  Shown shown() { return std::exchange(shown_, {}); }
+  /// Whether anything is known of a level of an island, and whether all of it has been handed over.
+  bool has(const world::IslandLevel& row) const { return entries_.contains(row); }
+  bool shows(const world::IslandLevel& row) const {
+    const auto found = entries_.find(row);
+    return found != entries_.end() && found->second.state == State::kShown;
+  }
   /// Takes all light out of the store; hand_over() puts it again, the nearest islands first.
   void take_back(render::IndirectStore& store, gpu::Uploader& uploader);
   /// Why islands were left without light since the last call, once.
@@ -70,6 +80,7 @@ class SkyLightFeed {
                       const std::map<world::IslandLevel, NearIsland>& islands);
 
   std::map<world::IslandLevel, Entry> entries_;
+  Shown shown_;
   std::optional<std::string> refusal_;
   std::string why_;  // the store's last refusal
 };

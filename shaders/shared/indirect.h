@@ -4,7 +4,9 @@
 // Two buffers of RGBA32_UINT texels. The first begins with a word an island, four a texel: the
 // first texel of its sky. A sky is kIndirectIslandTexels, which islands may share: what it sends to
 // their six faces now (sky_irradiance()), then harmonics of what sky, sun and moon send to them: a
-// texel a channel, halves of degrees 1 and 2 in order, then a texel with floats of degree 0. Of the
+// texel a channel, halves of degrees 1 and 2 in order, then a texel with floats of degree 0, then
+// one for each slot of key directions: irradiance, floats, of sun and moon that are followed from
+// there, which the harmonics are without. Of the
 // second, texel i < kMaxIslands is island i's grid: x lowest chunk (10 bits each of x, y, z from
 // bit 0 up, two's complement), y chunks along x, y, z (8 bits each; 24-31 log2 of a voxel's edge),
 // z first texel of its tables, w one of kIndirectDark and the like. The record of a face that sees
@@ -12,7 +14,8 @@
 // - a table a chunk of the grid (z fastest, x, y slowest): kIndirectTableTexels, a word a brick of
 // 8^3
 //   voxels (index z + 8 x + 64 y), the first texel of the brick's masks, or 0: it has no face; with
-//   kIndirectTinted if records of the chunk have a tint;
+//   kIndirectTinted if records of the chunk have a tint, kIndirectKeyed if light from key
+//   directions;
 // - a brick's masks: for each face direction and y of the brick a texel: xy which voxels have the
 // face
 //   (x: those with x < 4; bit z + 8 (x % 4)), zw the record of the first of each;
@@ -24,7 +27,9 @@
 //   (engine/core/harmonics.h): x colour c, shared exponent; y a byte a corner, its share s; zw a
 //   signed byte each of 8 numbers h in -1..1: irradiance c s max(0, e[0] + kMostBounceShape * sum
 //   of h[i] e[i + 1]). Corner b + 2 c, where b and c are 1 at the far end of the axes after the
-//   face's own (y, z for x faces; z, x for y faces; x, y for z faces). Then, if it has one, its
+//   face's own (y, z for x faces; z, x for y faces; x, y for z faces). Then, if it has them, what
+//   other faces reflect to it under irradiance 1 from the key directions: x, z colour of each slot,
+//   shared exponent; y, w a byte a corner, its share. Then, if it has one, its
 //   tint: a word a corner: colour of the light that lobes say is seen, 0..1, shared exponent.
 #ifndef SKERRY_SHARED_INDIRECT_H
 #define SKERRY_SHARED_INDIRECT_H
@@ -58,7 +63,8 @@ SHARED_FUNCTION uint sky_lobe(uint axis, uint octant, float sine) {
 SHARED_CONST uint kIndirectSkyTexels =
     3u;  // a face: red, green, blue; halves of the lobes in order
 SHARED_CONST uint kIndirectHarmonics = 18u;  // of a sky's texels: after 6 faces
-SHARED_CONST uint kIndirectIslandTexels = 22u;
+SHARED_CONST uint kIndirectKeys = 22u;       // of a sky's texels: after them
+SHARED_CONST uint kIndirectIslandTexels = 24u;
 SHARED_CONST uint kIndirectDark = 0u;            // nothing is known of an island's faces
 SHARED_CONST uint kIndirectFaces = 1u;           // tables say what each face sees
 SHARED_CONST uint kIndirectOpen = 2u;            // all faces see all of their sky
@@ -68,6 +74,7 @@ SHARED_CONST uint kIndirectTableTexels = 128u;
 SHARED_CONST uint kIndirectBrickTexels = 48u;
 SHARED_CONST uint kIndirectRecordTexels = 4u;
 SHARED_CONST uint kIndirectTinted = 0x80000000u;
+SHARED_CONST uint kIndirectKeyed = 0x40000000u;
 // The most that a harmonic of degree 1 or 2 can be of that of degree 0, rounded up.
 SHARED_CONST float kMostBounceShape = 2.25f;
 

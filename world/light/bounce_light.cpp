@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "world/light/base/shared_exponent.h"
 #include "world/light/face_records.h"
-#include "world/light/shared_exponent.h"
 #include "world/voxel/blocks.h"
 
 namespace skerry::world {
@@ -86,6 +86,7 @@ BounceLight::Light& BounceLight::Light::add(const Light& other, float weight) {
   mean += weight * other.mean;
   for (std::size_t i = 0; i < shape.size(); ++i) shape[i] += weight * other.shape[i];
   lamps += weight * other.lamps;
+  for (std::size_t slot = 0; slot < keyed.size(); ++slot) keyed[slot] += weight * other.keyed[slot];
   return *this;
 }
 
@@ -93,6 +94,7 @@ BounceLight::Light& BounceLight::Light::operator*=(float factor) {
   mean *= factor;
   for (float& value : shape) value *= factor;
   lamps *= factor;
+  for (glm::vec3& light : keyed) light *= factor;
   return *this;
 }
 
@@ -100,13 +102,16 @@ BounceLight::Light& BounceLight::Light::tint(const glm::vec3& left) {
   const float before = luminance(mean);
   mean *= left;
   lamps *= left;
+  for (glm::vec3& light : keyed) light *= left;
   const float kept = before > 0.0f ? luminance(mean) / before : luminance(left);
   for (float& value : shape) value *= kept;
   return *this;
 }
 
 BounceLight::PackedLight BounceLight::packed(const Light& light) {
-  PackedLight out{pack_shared_exponent(light.mean), pack_shared_exponent(light.lamps), {}};
+  PackedLight out{pack_shared_exponent(light.mean), pack_shared_exponent(light.lamps), {}, {}};
+  for (std::size_t slot = 0; slot < out.keyed.size(); ++slot)
+    out.keyed[slot] = pack_shared_exponent(light.keyed[slot]);
   const float most = luminance(light.mean) * shared::kMostBounceShape;
   if (most <= 0.0f) return out;
   for (std::size_t i = 0; i < out.shape.size(); ++i)
@@ -116,7 +121,9 @@ BounceLight::PackedLight BounceLight::packed(const Light& light) {
 }
 
 BounceLight::Light BounceLight::unpacked(const PackedLight& light) {
-  Light out{unpack_shared_exponent(light.mean), {}, unpack_shared_exponent(light.lamps)};
+  Light out{unpack_shared_exponent(light.mean), {}, unpack_shared_exponent(light.lamps), {}};
+  for (std::size_t slot = 0; slot < out.keyed.size(); ++slot)
+    out.keyed[slot] = unpack_shared_exponent(light.keyed[slot]);
   const float step = luminance(out.mean) * (shared::kMostBounceShape / kShapeSteps);
   for (std::size_t i = 0; i < out.shape.size(); ++i)
     out.shape[i] = step * static_cast<float>(light.shape[i]);
@@ -125,10 +132,15 @@ BounceLight::Light BounceLight::unpacked(const PackedLight& light) {
 
 // --- Faces ---
 
-BounceLight::BounceLight(const LightChunks& chunks, const LatticeLines& lines,
+BounceLight::BounceLight(const LightChunks& chunks, const AirVolume& air, const LatticeLines& lines,
                          const VoxelIndex& wanted, const GlassTints& tints,
-                         std::span<const FaceAlbedo> albedo, int bounces)
-    : steps_(bounces + 1), lines_(lines), wanted_(wanted), tints_(tints), albedo_(albedo) {
+                         std::span<const FaceAlbedo> albedo, int bounces, const KeyDirections& keys)
+    : steps_(bounces + 1),
+      air_(air),
+      lines_(lines),
+      wanted_(wanted),
+      tints_(tints),
+      albedo_(albedo) {
   numbers_.assign(wanted_.size() * 6, 0);
   if (!chunks.empty()) voxel_blocks_ = chunks.begin()->second->voxel_blocks;
   water_ = find_water(chunks);
@@ -143,6 +155,8 @@ BounceLight::BounceLight(const LightChunks& chunks, const LatticeLines& lines,
   relit_.clear();
   sources_.resize(faces_.size());
   for (std::vector<PackedLight>& light : leaving_) light.resize(faces_.size());
+  for (std::size_t slot = 0; slot < keys.size(); ++slot)
+    if (keys[slot]) set_key(slot, *keys[slot]);
 }
 
 BounceLight::Number BounceLight::number_of(IVec3 front, int direction) const {
@@ -408,6 +422,14 @@ void BounceLight::retint(IVec3 voxel) {
     if (const Number number = numbers_[base + direction]) relooked_.add(number - 1);
 }
 
+void BounceLight::shade_behind(IVec3 voxel) {
+  for (const std::optional<BodyRays>& body : bodies_)
+    if (body)
+      body->for_each_behind(voxel, [&](IVec3 behind) {
+        if (wanted_.has(behind)) relight(behind);
+      });
+}
+
 // --- Light ---
 
 /// Of the sky, what a face loses to glass: to be taken from its direct light.
@@ -457,19 +479,26 @@ BounceLight::Light BounceLight::direct_of(const Face& face, std::span<const Seen
   return out;
 }
 
-/// What comes along a face's lines of what left other faces at the step before.
-BounceLight::Light BounceLight::gathered(Number number, int step) const {
+/// Direct light from the key directions.
+void BounceLight::look_at_bodies(Number number) {
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot)
+    if (bodies_[slot])
+      from_body_[slot][number] = pack_shared_exponent(
+          bodies_[slot]->on_face(faces_[number].front, faces_[number].direction));
+}
+
+/// Calls fn(face, share of its light, tint or null) for the faces at which a face's lines end.
+template <class Fn>
+void BounceLight::for_each_sender(Number number, int step, const Fn& fn) const {
   const Face& face = faces_[number];
   const Hemisphere& way = hemisphere(face.direction);
   const bool last = is_last(step);
   const std::uint32_t every = last ? kLastEvery : kFirstEvery, first = first_of(face, every);
-  const std::vector<PackedLight>& leaving = leaving_[static_cast<std::size_t>(step - 1)];
   float looked = 0.0f;
   for (std::size_t k = first; k < kPatterns; k += every) looked += way.weight[k];
   const float whole = kIrradianceOfOctant / looked;
   const std::size_t voxel = tints_.any() ? wanted_.of(face.front) : 0;
   const Source* source = sources_[number].data() + (last ? kFirstLines : 0);
-  Light sum;
   for (std::size_t quarter = 0; quarter < 4; ++quarter) {
     const GlassTints::Tints* tints =
         tints_.any() ? tints_.find(voxel, way.octants[quarter]) : nullptr;
@@ -477,21 +506,27 @@ BounceLight::Light BounceLight::gathered(Number number, int step) const {
       if (*source == kNothing) continue;
       const float weight = way.weight[k] * whole;
       const GlassTints::Tint* tint = tints ? tint_of(*tints, k) : nullptr;
-      const auto add = [&](Number from, float share) {
-        Light light = unpacked(leaving[from - 1]);
-        if (tint) light.tint(tint->left);
-        sum.add(light, share);
-      };
       if ((*source & kSeveral) == 0) {
-        add(*source, weight);
+        fn(*source - 1, weight, tint);
         continue;
       }
       const Source place = *source & ~kSeveral;
       const Several& several = several_[place % kParts][place / kParts];
       for (const Number from : several.faces)
-        if (from != 0) add(from, weight * several.share);
+        if (from != 0) fn(from - 1, weight * several.share, tint);
     }
   }
+}
+
+/// What comes along a face's lines of what left other faces at the step before.
+BounceLight::Light BounceLight::gathered(Number number, int step) const {
+  const std::vector<PackedLight>& leaving = leaving_[static_cast<std::size_t>(step - 1)];
+  Light sum;
+  for_each_sender(number, step, [&](Number from, float share, const GlassTints::Tint* tint) {
+    Light light = unpacked(leaving[from]);
+    if (tint) light.tint(tint->left);
+    sum.add(light, share);
+  });
   return sum;
 }
 
@@ -503,6 +538,8 @@ BounceLight::PackedLight BounceLight::light_of(Number number, int step,
   if (step > 0) light = gathered(number, step);
   if (is_last(step)) return packed(light);
   light += direct_of(face, seen, lamps);
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot)
+    if (bodies_[slot]) light.keyed[slot] += unpack_shared_exponent(from_body_[slot][number]);
   return packed(reflected(face, light));
 }
 
@@ -511,16 +548,57 @@ void BounceLight::follow(int step, int part, std::span<const SeenSky> seen,
   const std::size_t count = faces_.size(), p = static_cast<std::size_t>(part);
   for (std::size_t i = count * p / kParts; i < count * (p + 1) / kParts; ++i) {
     const auto number = static_cast<Number>(i);
-    if (step == 0) look_along(number, seen[wanted_.of(faces_[i].front)], p);
+    if (step == 0) {
+      look_along(number, seen[wanted_.of(faces_[i].front)], p);
+      look_at_bodies(number);
+    }
     leaving_[static_cast<std::size_t>(step)][i] = light_of(number, step, seen, lamps);
   }
   if (step == 0 && part == 0) first_several_ = several_[0].size();
+}
+
+void BounceLight::set_key(std::size_t slot, const glm::vec3& to_body) {
+  bodies_[slot].emplace(air_, to_body);
+  from_body_[slot].assign(faces_.size(), 0);
+  sources_.resize(faces_.size());
+}
+
+// As light_of() has it for all light.
+void BounceLight::follow_key(std::size_t slot, int step, int part) {
+  const std::size_t count = faces_.size(), p = static_cast<std::size_t>(part);
+  for (std::size_t i = count * p / kParts; i < count * (p + 1) / kParts; ++i) {
+    const auto number = static_cast<Number>(i);
+    if (!exists(number)) continue;
+    const Face& face = faces_[i];
+    std::uint32_t& direct = from_body_[slot][i];
+    if (step == 0)
+      direct = pack_shared_exponent(bodies_[slot]->on_face(face.front, face.direction));
+    glm::vec3 sum(0.0f);
+    if (step > 0) {
+      const std::vector<PackedLight>& before = leaving_[static_cast<std::size_t>(step - 1)];
+      for_each_sender(number, step, [&](Number from, float share, const GlassTints::Tint* tint) {
+        glm::vec3 light = unpack_shared_exponent(before[from].keyed[slot]);
+        if (tint) light *= tint->left;
+        sum += share * light;
+      });
+    }
+    Light light;
+    light.keyed[slot] = sum;
+    if (!is_last(step)) {
+      light.keyed[slot] += unpack_shared_exponent(direct);
+      light = reflected(face, light);
+    }
+    leaving_[static_cast<std::size_t>(step)][i].keyed[slot] =
+        pack_shared_exponent(light.keyed[slot]);
+  }
 }
 
 std::size_t BounceLight::bytes() const {
   std::size_t bytes = numbers_.size() * sizeof(Number) + faces_.size() * sizeof(Face) +
                       sources_.size() * sizeof(sources_[0]) + readers_.size() * sizeof(Number) +
                       water_.size() * sizeof(Water);
+  for (const std::vector<std::uint32_t>& from : from_body_)
+    bytes += from.size() * sizeof(std::uint32_t);
   for (const std::vector<Several>& several : several_) bytes += several.size() * sizeof(Several);
   for (const std::vector<PackedLight>& light : leaving_)
     bytes += light.size() * sizeof(PackedLight);
@@ -573,7 +651,10 @@ bool BounceLight::comes_from(Number number, int step, const Marked& changed) con
 std::vector<BounceLight::Changed> BounceLight::follow_changes(std::span<const SeenSky> seen,
                                                               const LampLightMap& lamps) {
   list_readers();
-  const auto exists = [&](Number number) { return faces_[number].ground || faces_[number].plant; };
+  for (std::size_t slot = 0; slot < bodies_.size(); ++slot)
+    if (bodies_[slot]) from_body_[slot].resize(faces_.size());
+  for (const Number number : relit_.all())
+    if (exists(number)) look_at_bodies(number);
   std::array<Marked, 2> changed;  // by parity of the step
   for (int step = 0; step < steps_; ++step) {
     std::vector<PackedLight>& leaving = leaving_[static_cast<std::size_t>(step)];

@@ -4,15 +4,17 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
 #include "engine/core/harmonics.h"
 #include "world/light/air_volume.h"
+#include "world/light/base/marked.h"
+#include "world/light/body_rays.h"
 #include "world/light/glass_tints.h"
 #include "world/light/lamp_light.h"
 #include "world/light/lattice_lines.h"
-#include "world/light/marked.h"
 #include "world/light/voxel_index.h"
 
 namespace skerry::world {
@@ -34,8 +36,12 @@ using SeenSky = std::array<std::uint16_t, kOctants>;
 /// under_water.glsl has the same of the way down. @param blocks from the surface to the face.
 glm::vec3 left_by_water(float blocks);
 
+/// Directions, unit, in the lattice, from which the light of sun or moon is followed as it is, by
+/// slot: one is shown while the other is followed anew. None: the slot is not in use.
+using KeyDirections = std::array<std::optional<glm::vec3>, 2>;
+
 /// Light that faces of an island send to each other: of the sky, sun and moon as a function of what
-/// they send, and of lamps.
+/// they send, of lamps, and of a body in each of some key directions.
 ///
 /// What a face receives of light from direction w at infinity that others have reflected is a
 /// smooth function of w: it is kept as harmonics, so that day and night move without any work here.
@@ -43,6 +49,8 @@ glm::vec3 left_by_water(float blocks);
 /// hemisphere, its neighbours along the other half, and for all reflections but the last along a
 /// quarter. A line that does not end at the sky ends at the first voxel that it touches, and what
 /// comes from there is the light of the face that it enters through, from the air that it came by.
+/// Harmonics blur the edges of sun and shade, which do not move as smoothly as what is reflected of
+/// the sky: from a key direction, each face has what BodyRays say.
 ///
 /// What leaves a face under level water has passed that twice: left_by_water().
 ///
@@ -57,6 +65,8 @@ class BounceLight {
     glm::vec3 mean{0.0f};
     std::array<float, kHarmonics - 1> shape{};  ///< in luminance
     glm::vec3 lamps{0.0f};
+    /// If a body of irradiance 1 stands in a slot's key direction, and nothing else sends light.
+    std::array<glm::vec3, std::tuple_size_v<KeyDirections>> keyed{glm::vec3(0.0f), glm::vec3(0.0f)};
 
     Light& operator+=(const Light& other) { return add(other, 1.0f); }
     Light& operator*=(float factor);
@@ -72,8 +82,9 @@ class BounceLight {
 
   /// @param wanted holds the voxel before each face and that of each plant. All but the chunks must
   /// outlive this. @param albedo by block id. @param bounces 1 to kBounces, fewer for comparison.
-  BounceLight(const LightChunks& chunks, const LatticeLines& lines, const VoxelIndex& wanted,
-              const GlassTints& tints, std::span<const FaceAlbedo> albedo, int bounces = kBounces);
+  BounceLight(const LightChunks& chunks, const AirVolume& air, const LatticeLines& lines,
+              const VoxelIndex& wanted, const GlassTints& tints, std::span<const FaceAlbedo> albedo,
+              int bounces = kBounces, const KeyDirections& keys = {});
 
   /// One more than bounces.
   int steps() const { return steps_; }
@@ -94,6 +105,15 @@ class BounceLight {
       out |= numbers_[number * 6 + direction] != 0 ? 1u << direction : 0u;
     return out;
   }
+
+  // --- Another key direction, after all that has changed has been followed ---
+
+  /// Whether any slot is in use.
+  bool is_keyed() const { return bodies_[0] || bodies_[1]; }
+  /// @param to_body in place of what the slot had.
+  void set_key(std::size_t slot, const glm::vec3& to_body);
+  /// Follows the light of that slot alone, by steps and parts as follow().
+  void follow_key(std::size_t slot, int step, int part);
 
   // --- After an edit: first voxels, then water, faces, lines and light ---
 
@@ -123,6 +143,8 @@ class BounceLight {
   void relight(IVec3 voxel);
   /// Glass leaves another share of what comes along lines of the faces before which a voxel is.
   void retint(IVec3 voxel);
+  /// A voxel may stop the light of bodies in key directions now, or no longer.
+  void shade_behind(IVec3 voxel);
 
   struct Changed {
     IVec3 front{};
@@ -150,9 +172,10 @@ class BounceLight {
     bool ground = false;     // a block's face
     bool plant = false;      // a plant stands there; on a block's face it shares its light
   };
-  /// Light in 16 bytes: to 1/512 of its brightest channel, shape to 1/254 of its greatest.
+  /// Light in 24 bytes: to 1/512 of its brightest channel, shape to 1/254 of its greatest.
   struct PackedLight {
     std::uint32_t mean = 0, lamps = 0;
+    std::array<std::uint32_t, std::tuple_size_v<KeyDirections>> keyed{};
     std::array<std::int8_t, kHarmonics - 1> shape{};
     bool operator==(const PackedLight&) const = default;
   };
@@ -178,7 +201,11 @@ class BounceLight {
   void look_along(Number number, const SeenSky& seen, std::size_t part);
   Light lost_to_glass(std::size_t voxel, const Face& face, std::span<const SeenSky> seen) const;
   Light direct_of(const Face& face, std::span<const SeenSky> seen, const LampLightMap& lamps) const;
+  template <class Fn>
+  void for_each_sender(Number number, int step, const Fn& fn) const;
   Light gathered(Number number, int step) const;
+  bool exists(Number number) const { return faces_[number].ground || faces_[number].plant; }
+  void look_at_bodies(Number number);
   PackedLight light_of(Number number, int step, std::span<const SeenSky> seen,
                        const LampLightMap& lamps) const;
   bool comes_from(Number number, int step, const Marked& changed) const;
@@ -200,6 +227,7 @@ class BounceLight {
   bool is_last(int step) const { return step == steps_ - 1; }
 
   int steps_;
+  const AirVolume& air_;
   const LatticeLines& lines_;
   const VoxelIndex& wanted_;
   const GlassTints& tints_;
@@ -207,6 +235,9 @@ class BounceLight {
   std::vector<Face> faces_;
   std::vector<Water> water_;  // by voxel
   float voxel_blocks_ = 1.0f;
+  std::array<std::optional<BodyRays>, std::tuple_size_v<KeyDirections>> bodies_;  // by slot
+  /// By slot and face: direct light, shared exponent; empty: the slot is not in use.
+  std::array<std::vector<std::uint32_t>, std::tuple_size_v<KeyDirections>> from_body_;
   std::vector<Number> free_faces_;
   std::vector<Number> numbers_;  // 1 + of faces_, by voxel and direction; 0: none
   std::vector<std::array<Source, kLines>> sources_;  // by face: of first reflections, of the last

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "shaders/shared/occupancy.h"
-#include "world/light/shared_exponent.h"
+#include "world/light/base/shared_exponent.h"
 
 namespace skerry::world {
 namespace {
@@ -61,13 +61,13 @@ namespace {
 
 /// @param before null, or where faces that have a record there find it: in place of append().
 ChunkSky pack(std::span<const shared::Quad> quads, const ChunkSky* before,
-              const AppendRecord& append, std::uint32_t record_texels) {
-  const std::size_t record = record_texels;
+              const AppendRecord& append, const RecordParts& parts) {
+  const std::size_t record = parts.texels();
   FacesByBrick faces;
   for (const shared::Quad& quad : quads)
     for_each_face(quad, [&](const DrawnFace& face) { faces.add(face); });
   ChunkSky out;
-  out.record_texels = record_texels;
+  out.parts = parts;
   out.table.assign(shared::kBricksPerChunk, 0);
   if (before) out.texels.reserve(before->texels.size() + before->texels.size() / 16);
   out.texels.assign(faces.count() * shared::kIndirectBrickTexels, glm::uvec4(0));
@@ -122,14 +122,13 @@ glm::uvec4 white_tint() {
 ChunkSky with_tints(const ChunkSky& before, bool all) {
   const auto masks_end = static_cast<std::size_t>(std::ranges::max(before.table)) *
                          std::size_t{shared::kIndirectBrickTexels};
-  constexpr std::size_t kPlain = shared::kIndirectRecordTexels;
-  const std::size_t old = before.record_texels;
+  const std::size_t plain = before.parts.before_tint(), old = before.record_texels();
   bool any = all;
-  for (std::size_t at = masks_end; at < before.texels.size() && old > kPlain && !any; at += old)
-    any = before.texels[at + kPlain] != white_tint();
-  const std::size_t now = any ? kPlain + 1 : kPlain;
+  for (std::size_t at = masks_end; at < before.texels.size() && old > plain && !any; at += old)
+    any = before.texels[at + plain] != white_tint();
+  const std::size_t now = any ? plain + 1 : plain;
   if (now == old) return before;
-  ChunkSky out{before.table, {}, static_cast<std::uint32_t>(now)};
+  ChunkSky out{before.table, {}, {before.parts.keyed, any}};
   out.texels.reserve(masks_end + (before.texels.size() - masks_end) / old * now);
   out.texels.assign(before.texels.begin(),
                     before.texels.begin() + static_cast<std::ptrdiff_t>(masks_end));
@@ -138,20 +137,38 @@ ChunkSky with_tints(const ChunkSky& before, bool all) {
       masks[half] = static_cast<std::uint32_t>(masks_end + (masks[half] - masks_end) / old * now);
   for (std::size_t at = masks_end; at < before.texels.size(); at += old) {
     const auto record = before.texels.begin() + static_cast<std::ptrdiff_t>(at);
-    out.texels.insert(out.texels.end(), record, record + static_cast<std::ptrdiff_t>(kPlain));
+    out.texels.insert(out.texels.end(), record, record + static_cast<std::ptrdiff_t>(plain));
     if (any) out.texels.push_back(white_tint());
   }
   return out;
 }
 
 ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append,
-                    std::uint32_t record_texels) {
-  return pack(quads, nullptr, append, record_texels);
+                    const RecordParts& parts) {
+  return pack(quads, nullptr, append, parts);
 }
 
 ChunkSky repack_faces(const ChunkSky& before, std::span<const shared::Quad> quads,
                       const AppendRecord& append) {
-  return pack(quads, &before, append, before.record_texels);
+  return pack(quads, &before, append, before.parts);
+}
+
+void for_each_record(const ChunkSky& chunk,
+                     const std::function<void(IVec3, int, std::size_t)>& fn) {
+  for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
+    if (chunk.table[at] == 0) continue;
+    const std::size_t first = (chunk.table[at] - 1) * std::size_t{shared::kIndirectBrickTexels};
+    for (std::size_t direction = 0; direction < 6; ++direction)
+      for (std::size_t word = 0; word < 16; ++word) {
+        const glm::uvec4& masks = chunk.texels[first + direction * 8 + word / 2];
+        const auto half = static_cast<int>(word % 2);
+        std::size_t record = masks[2 + half];
+        for (std::uint32_t left = masks[half]; left != 0; left &= left - 1) {
+          fn(voxel_at(at, word, std::countr_zero(left)), static_cast<int>(direction), record);
+          record += chunk.record_texels();
+        }
+      }
+  }
 }
 
 std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int direction) {
@@ -165,7 +182,7 @@ std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int d
   const auto half = static_cast<int>(word % 2);
   const std::uint32_t bit = 1u << bit_of(voxel);
   if ((masks[half] & bit) == 0) return std::nullopt;
-  return masks[2 + half] + std::size_t{chunk.record_texels} *
+  return masks[2 + half] + std::size_t{chunk.record_texels()} *
                                static_cast<std::size_t>(std::popcount(masks[half] & (bit - 1)));
 }
 
@@ -251,7 +268,7 @@ std::vector<shared::Quad> lit_faces(const ChunkSky& before, std::span<const shar
 ChunkSky inherit_faces(const ChunkSky& before, std::span<const shared::Quad> quads) {
   return repack_faces(before, quads, [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
     const std::optional<std::size_t> from = nearest_record(before, face);
-    for (std::size_t i = 0; i < before.record_texels; ++i)
+    for (std::size_t i = 0; i < before.record_texels(); ++i)
       texels.push_back(from ? before.texels[*from + i] : glm::uvec4(0));
   });
 }
@@ -267,7 +284,7 @@ void copy_brick(const ChunkSky& before, std::uint32_t from, std::uint32_t to,
   const glm::uvec4 last = masks[kMasks - 1];
   const std::uint32_t begin = masks[0].z;
   const std::uint32_t end =
-      last.w + before.record_texels * static_cast<std::uint32_t>(std::popcount(last.y));
+      last.w + before.record_texels() * static_cast<std::uint32_t>(std::popcount(last.y));
   const std::uint32_t moved = static_cast<std::uint32_t>(texels.size()) - begin;  // may wrap
   for (std::size_t i = 0; i < kMasks; ++i)
     texels[(to - 1) * kMasks + i] =
@@ -286,7 +303,7 @@ ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads)
     });
   if (fresh.count() == 0) return before;
   ChunkSky out;
-  out.record_texels = before.record_texels;
+  out.parts = before.parts;
   out.table.assign(shared::kBricksPerChunk, 0);
   std::uint32_t stored = 0;
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at)
@@ -294,7 +311,7 @@ ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads)
   out.texels.reserve(before.texels.size() + fresh.count() * shared::kIndirectBrickTexels);
   out.texels.assign(stored * shared::kIndirectBrickTexels, glm::uvec4(0));
   const auto append = [&](std::optional<std::size_t> record) {
-    for (std::size_t i = 0; i < before.record_texels; ++i)
+    for (std::size_t i = 0; i < before.record_texels(); ++i)
       out.texels.push_back(record ? before.texels[*record + i] : glm::uvec4(0));
   };
   for (std::size_t at = 0; at < shared::kBricksPerChunk; ++at) {
@@ -319,7 +336,7 @@ ChunkSky with_faces(const ChunkSky& before, std::span<const shared::Quad> quads)
           const int bit = std::countr_zero(left);
           if ((old[half] >> bit & 1u) != 0) {
             append(next);
-            next += before.record_texels;
+            next += before.record_texels();
           } else {
             append(nearest_record(before,
                                   {voxel_at(at, word, bit), static_cast<int>(direction), false}));

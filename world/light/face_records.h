@@ -12,15 +12,25 @@
 
 namespace skerry::world {
 
+/// What a record has behind its first kIndirectRecordTexels: a texel each, in this order.
+struct RecordParts {
+  bool keyed = false;   ///< light from key directions
+  bool tinted = false;  ///< tints, where the sky of any face is tinted by glass
+  std::uint32_t texels() const {
+    return shared::kIndirectRecordTexels + (keyed ? 1u : 0u) + (tinted ? 1u : 0u);
+  }
+  std::uint32_t before_tint() const { return shared::kIndirectRecordTexels + (keyed ? 1u : 0u); }
+  bool operator==(const RecordParts&) const = default;
+};
+
 /// Light on the faces of a chunk: how much of the sky they see, and of weak lamps. In the GPU's own
 /// words (shaders/shared/indirect.h).
 struct ChunkSky {
   std::vector<std::uint32_t> table;  ///< a word a brick: 0, or 1 + which of the stored bricks it is
   /// The stored bricks' masks, then records. Records are counted from 0 in texels of this list.
   std::vector<glm::uvec4> texels;
-  /// Of a record: one more if the sky of any face is tinted by glass.
-  std::uint32_t record_texels = shared::kIndirectRecordTexels;
-  bool tinted() const { return record_texels != shared::kIndirectRecordTexels; }
+  RecordParts parts{};  ///< of all its records
+  std::uint32_t record_texels() const { return parts.texels(); }
   bool operator==(const ChunkSky&) const = default;
 };
 
@@ -79,14 +89,17 @@ glm::uvec4 white_tint();
 ChunkSky with_tints(const ChunkSky& before, bool all = false);
 
 /// Makes the records of a chunk's faces, in an order that does not depend on that of its quads.
-/// @param append adds a face's record to the list. @param record_texels that it adds.
+/// @param append adds a face's record to the list. @param parts that it adds.
 using AppendRecord = std::function<void(const DrawnFace&, std::vector<glm::uvec4>&)>;
 ChunkSky pack_faces(std::span<const shared::Quad> quads, const AppendRecord& append,
-                    std::uint32_t record_texels = shared::kIndirectRecordTexels);
+                    const RecordParts& parts = {});
 /// Alike, but faces that have a record before keep it. @param append of the others, as many texels
 /// as those have.
 ChunkSky repack_faces(const ChunkSky& before, std::span<const shared::Quad> quads,
                       const AppendRecord& append);
+
+/// Calls fn(voxel, direction, where its record begins in ChunkSky::texels) for each face, by brick.
+void for_each_record(const ChunkSky& chunk, const std::function<void(IVec3, int, std::size_t)>& fn);
 
 /// Where a face's record begins in ChunkSky::texels. None: the chunk has no such face.
 std::optional<std::size_t> find_record(const ChunkSky& chunk, IVec3 voxel, int direction);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "world/light/air_volume.h"
-#include "world/light/sky_rays.h"
+#include "world/light/base/sky_rays.h"
 
 namespace skerry::world {
 

@@ -73,18 +73,21 @@ std::size_t bytes_of(const LightChunks& chunks, const LightCache::Light& light) 
 }  // namespace
 
 LightCache::Entries::iterator LightCache::place_of(std::uint64_t fingerprint,
-                                                   const LightChunks& chunks, Kind kind) {
+                                                   const LightChunks& chunks, Kind kind,
+                                                   const KeyDirections& keys) {
   const auto [first, last] = by_fingerprint_.equal_range(fingerprint);
   for (auto one = first; one != last; ++one)
-    if (one->second->kind == kind && same_light_chunks(one->second->chunks, chunks))
+    if (one->second->kind == kind && one->second->keys == keys &&
+        same_light_chunks(one->second->chunks, chunks))
       return one->second;
   return entries_.end();
 }
 
-std::shared_ptr<const LightCache::Light> LightCache::find(const LightChunks& chunks, Kind kind) {
+std::shared_ptr<const LightCache::Light> LightCache::find(const LightChunks& chunks, Kind kind,
+                                                          const KeyDirections& keys) {
   const std::uint64_t fingerprint = fingerprint_of(chunks);
   const std::lock_guard lock(mutex_);
-  const auto place = place_of(fingerprint, chunks, kind);
+  const auto place = place_of(fingerprint, chunks, kind, keys);
   if (place == entries_.end()) {
     ++stats_.missed;
     return nullptr;
@@ -94,12 +97,13 @@ std::shared_ptr<const LightCache::Light> LightCache::find(const LightChunks& chu
   return place->light;
 }
 
-void LightCache::keep(const LightChunks& chunks, Kind kind, Light light) {
-  Entry entry{fingerprint_of(chunks), kind, chunks, {}, bytes_of(chunks, light)};
+void LightCache::keep(const LightChunks& chunks, Kind kind, const KeyDirections& keys,
+                      Light light) {
+  Entry entry{fingerprint_of(chunks), kind, keys, chunks, {}, bytes_of(chunks, light)};
   if (entry.bytes > most_bytes_) return;
   entry.light = std::make_shared<const Light>(std::move(light));
   const std::lock_guard lock(mutex_);
-  if (place_of(entry.fingerprint, chunks, kind) != entries_.end()) return;
+  if (place_of(entry.fingerprint, chunks, kind, keys) != entries_.end()) return;
   stats_.bytes += entry.bytes;
   entries_.push_front(std::move(entry));
   by_fingerprint_.emplace(entries_.front().fingerprint, entries_.begin());

@@ -37,21 +37,25 @@ class LightCache {
   LightCache& operator=(const LightCache&) = delete;
 
   /// @return null: nothing is known of such chunks.
-  std::shared_ptr<const Light> find(const LightChunks& chunks, Kind kind);
+  /// @param keys see SkyTransfer: other directions are other light.
+  std::shared_ptr<const Light> find(const LightChunks& chunks, Kind kind,
+                                    const KeyDirections& keys = {});
   /// @param light all of what was found of these chunks.
-  void keep(const LightChunks& chunks, Kind kind, Light light);
+  void keep(const LightChunks& chunks, Kind kind, const KeyDirections& keys, Light light);
   Stats stats() const;
 
  private:
   struct Entry {
     std::uint64_t fingerprint = 0;
     Kind kind = Kind::kSky;
+    KeyDirections keys{};
     LightChunks chunks;
     std::shared_ptr<const Light> light;
     std::size_t bytes = 0;
   };
   using Entries = std::list<Entry>;
-  Entries::iterator place_of(std::uint64_t fingerprint, const LightChunks& chunks, Kind kind);
+  Entries::iterator place_of(std::uint64_t fingerprint, const LightChunks& chunks, Kind kind,
+                             const KeyDirections& keys);
   void evict();
 
   const std::size_t most_bytes_;

@@ -3,8 +3,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/vec2.hpp>
 
-#include "world/light/shared_exponent.h"
+#include "world/light/base/shared_exponent.h"
 #include "world/light/sky_transfer.h"
 
 namespace skerry::world {
@@ -118,7 +119,39 @@ glm::uvec4 packed(const Corners& corners) {
   return out;
 }
 
+/// Colour from a key direction, of the brightest corner, and the share of each.
+glm::uvec2 packed_from_key(const Corners& corners, std::size_t slot) {
+  glm::vec3 sum(0.0f);
+  float most = 0.0f;
+  for (const BounceLight::Light& corner : corners) {
+    sum += corner.keyed[slot];
+    most = std::max(most, luminance(corner.keyed[slot]));
+  }
+  glm::uvec2 out(0);
+  if (most <= 0.0f) return out;
+  out.x = pack_shared_exponent(sum * (most / luminance(sum)));
+  for (std::size_t i = 0; i < 4; ++i)
+    out.y |=
+        static_cast<std::uint32_t>(std::lround(luminance(corners[i].keyed[slot]) / most * 255.0f))
+        << (8 * i);
+  return out;
+}
+
+glm::uvec4 packed_keyed(const Corners& corners) {
+  return {packed_from_key(corners, 0), packed_from_key(corners, 1)};
+}
+
 }  // namespace
+
+SkyTransfer::Around SkyTransfer::around(IVec3 front, const FaceAxes& axes) const {
+  Around out;
+  for (std::size_t at = 0; at < 9; ++at) {
+    const int i = static_cast<int>(at);
+    out.voxels[at] = front + axis_vector(axes.b, i % 3 - 1) + axis_vector(axes.c, i / 3 - 1);
+    out.air[at] = wanted_.has(out.voxels[at]);
+  }
+  return out;
+}
 
 /// What a face's corners receive that other faces have reflected.
 SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face, bool plant) const {
@@ -166,15 +199,12 @@ glm::uvec4 SkyTransfer::tint_corners(const Around& around, const FaceAxes& axes,
 void SkyTransfer::append_record(IVec3 front, int face, bool plant,
                                 std::vector<glm::uvec4>& texels) const {
   const FaceAxes axes(face);
-  Around around;
+  const Around around = this->around(front, axes);
   std::array<LobeShares, 9> views{};
   std::array<glm::vec3, 9> lamps{};
   bool tinted = false;
   for (std::size_t at = 0; at < 9; ++at) {
-    const int i = static_cast<int>(at);
-    const IVec3 voxel = front + axis_vector(axes.b, i % 3 - 1) + axis_vector(axes.c, i / 3 - 1);
-    around.voxels[at] = voxel;
-    around.air[at] = wanted_.has(voxel);
+    const IVec3 voxel = around.voxels[at];
     if (!around.air[at]) continue;
     const std::size_t index = wanted_.of(voxel);
     if (const LampLight* lit = lamp_light_.find(index))
@@ -206,6 +236,7 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
   texels.emplace_back(words[4], words[5], words[6], words[7]);
   texels.push_back(lamp_words);
   texels.push_back(packed(bounces));
+  if (record_parts().keyed) texels.push_back(packed_keyed(bounces));
   if (tints_.any()) texels.push_back(tint);
 }
 
@@ -214,8 +245,8 @@ ChunkSky SkyTransfer::faces_of(IVec3 chunk, std::span<const shared::Quad> quads)
   const auto append = [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
     append_record(corner + face.voxel + to_front(face), face.direction, face.plant, texels);
   };
-  const ChunkSky packed = pack_faces(quads, append, record_texels());
-  return packed.tinted() ? with_tints(packed) : packed;
+  const ChunkSky packed = pack_faces(quads, append, record_parts());
+  return packed.parts.tinted ? with_tints(packed) : packed;
 }
 
 const SkyTransfer::Skies& SkyTransfer::make_faces() {
@@ -223,6 +254,26 @@ const SkyTransfer::Skies& SkyTransfer::make_faces() {
   for (const auto& [at, chunk] : chunks_)
     if (!chunk->quads.empty())
       skies_.emplace(at, std::make_shared<const ChunkSky>(faces_of(at, chunk->quads)));
+  return skies_;
+}
+
+const SkyTransfer::Skies& SkyTransfer::take_key(std::size_t slot) {
+  for (auto& [at, sky] : skies_) {
+    if (!sky->parts.keyed) return make_faces();  // of the first key direction
+    auto now = std::make_shared<ChunkSky>(*sky);
+    for_each_record(
+        *sky, [&, corner = corner_of(at)](IVec3 local, int direction, std::size_t record) {
+          const IVec3 voxel = corner + local;
+          const bool plant = direction == 2 && air_.has_leaves && air_.plants.at(voxel);
+          const IVec3 front = voxel + to_front({local, direction, plant});
+          const glm::uvec2 words =
+              packed_from_key(bounced(around(front, FaceAxes(direction)), direction, plant), slot);
+          glm::uvec4& keyed = now->texels[record + shared::kIndirectRecordTexels];
+          keyed[static_cast<int>(2 * slot)] = words.x;
+          keyed[static_cast<int>(2 * slot + 1)] = words.y;
+        });
+    sky = std::move(now);
+  }
   return skies_;
 }
 

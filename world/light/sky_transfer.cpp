@@ -54,7 +54,7 @@ inline void and_row(std::uint64_t* into, const std::uint64_t* row, int by, int w
 }  // namespace
 
 SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo, int bounces,
-                         int spare)
+                         int spare, const KeyDirections& keys)
     : chunks_(std::move(chunks)),
       air_(air_volume_of(chunks_, 2 + spare)),
       lines_(air_),
@@ -79,7 +79,8 @@ SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo,
   wanted_ = VoxelIndex(std::move(wanted));
   most_numbers_ = wanted_.size() + wanted_.size() / 4 + kSpareNumbers;
   seen_.assign(wanted_.size(), SeenSky{});
-  if (!albedo.empty()) bounces_.emplace(chunks_, lines_, wanted_, tints_, albedo, bounces);
+  if (!albedo.empty())
+    bounces_.emplace(chunks_, air_, lines_, wanted_, tints_, albedo, bounces, keys);
 }
 
 void SkyTransfer::look(int octant) {
@@ -167,6 +168,14 @@ std::size_t SkyTransfer::bytes() const {
 
 void SkyTransfer::follow_bounces(int step, int part) {
   if (bounces_ && !seen_.empty()) bounces_->follow(step, part, seen_, all_lamps_);
+}
+
+void SkyTransfer::set_key(std::size_t slot, const glm::vec3& to_body) {
+  bounces_->set_key(slot, to_body);
+}
+
+void SkyTransfer::follow_key(std::size_t slot, int step, int part) {
+  bounces_->follow_key(slot, step, part);
 }
 
 }  // namespace skerry::world

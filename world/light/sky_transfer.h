@@ -31,9 +31,10 @@ class SkyTransfer {
  public:
   /// @param albedo by block id; empty: no light is followed from face to face. It must outlive
   /// this. @param bounces how often light is followed, see BounceLight. @param spare blocks about
-  /// the island in which edit() can follow what is built.
+  /// the island in which edit() can follow what is built. @param keys see BounceLight.
   explicit SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo = {},
-                       int bounces = BounceLight::kBounces, int spare = 0);
+                       int bounces = BounceLight::kBounces, int spare = 0,
+                       const KeyDirections& keys = {});
   SkyTransfer(const SkyTransfer&) = delete;  // its parts refer to each other
   SkyTransfer& operator=(const SkyTransfer&) = delete;
   /// Looks along an octant's vectors. Octants may be looked along at once, each by one thread.
@@ -51,6 +52,12 @@ class SkyTransfer {
   const Skies& faces() const { return skies_; }
   /// Memory that is kept for edits.
   std::size_t bytes() const;
+
+  /// After make_faces() or edit(): the light of a body is to be followed from another direction.
+  /// Then follow_key() as follow_bounces(), then take_key(). @pre has_bounces()
+  void set_key(std::size_t slot, const glm::vec3& to_body);
+  void follow_key(std::size_t slot, int step, int part);
+  const Skies& take_key(std::size_t slot);
 
   /// After make_faces(): brings all of it up to date with chunks of which some have been edited.
   /// What comes out is what a new one would find of them, bit for bit; what it costs depends on
@@ -82,6 +89,7 @@ class SkyTransfer {
   };
   struct Around;
   class Edit;
+  Around around(IVec3 front, const FaceAxes& axes) const;
   void look_along(int octant, int pattern, const VoxelBits& open, VoxelBits& passed);
   static std::vector<Lamp> lamps_of(const LightChunk& chunk, IVec3 at);
   /// Calls fn(voxel) for each whose view is kept and that a lamp can light.
@@ -112,11 +120,9 @@ class SkyTransfer {
   Corners bounced(const Around& around, int face, bool plant) const;
   glm::uvec4 tint_corners(const Around& around, const FaceAxes& axes,
                           std::span<std::array<std::uint32_t, shared::kSkyLobes>> views) const;
-  std::uint32_t record_texels() const {
-    return shared::kIndirectRecordTexels + (tints_.any() ? 1 : 0);
-  }
+  RecordParts record_parts() const { return {bounces_ && bounces_->is_keyed(), tints_.any()}; }
   ChunkSky faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const;
-  /// Its texels: one more than kIndirectRecordTexels if there is any glass.
+  /// Its texels: those of record_parts().
   void append_record(IVec3 front, int face, bool plant, std::vector<glm::uvec4>& texels) const;
 
   LightChunks chunks_;

@@ -228,6 +228,7 @@ class SkyTransfer::Edit {
     }
     for (const IVec3& voxel : through_) look_through(voxel);
     if (!of_.bounces_) return;
+    for (const IVec3& voxel : voxels_) of_.bounces_->shade_behind(voxel);
     for (const IVec3& voxel : wanted_) fronts_.add(of_.wanted_, voxel);
     for (const IVec3& front : fronts_.voxels)
       of_.bounces_->look_from(front, of_.seen_[of_.wanted_.of(front)]);
@@ -455,9 +456,9 @@ class SkyTransfer::Edit {
     for (const IVec3& at : reshaped_) by_chunk[at];
     for (const auto& [at, faces] : by_chunk) {
       const auto known = of_.skies_.find(at);
-      if (known == of_.skies_.end() || !known->second->tinted()) continue;
+      if (known == of_.skies_.end() || !known->second->parts.tinted) continue;
       ChunkSky narrow = with_tints(*known->second);
-      if (!narrow.tinted()) known->second = std::make_shared<const ChunkSky>(std::move(narrow));
+      if (!narrow.parts.tinted) known->second = std::make_shared<const ChunkSky>(std::move(narrow));
     }
   }
 
@@ -475,8 +476,9 @@ class SkyTransfer::Edit {
     texels_.clear();
     of_.append_record(voxel + to_front({local, direction, plant}), direction, plant, texels_);
     const ChunkSky& now = sky ? *sky : known;
-    if (texels_.size() > now.record_texels && texels_.back() == white_tint()) texels_.pop_back();
-    if (texels_.size() > now.record_texels) sky = std::make_shared<ChunkSky>(with_tints(now, true));
+    if (texels_.size() > now.record_texels() && texels_.back() == white_tint()) texels_.pop_back();
+    if (texels_.size() > now.record_texels())
+      sky = std::make_shared<ChunkSky>(with_tints(now, true));
     if (sky) record = find_record(*sky, local, direction);
     if (std::ranges::equal(texels_, record_of(sky ? *sky : known, *record, texels_.size()))) return;
     if (!sky) sky = std::make_shared<ChunkSky>(known);
@@ -496,7 +498,7 @@ class SkyTransfer::Edit {
     };
     const auto known = of_.skies_.find(at);
     const auto make = [&] {
-      if (known == of_.skies_.end()) return pack_faces(quads, append, of_.record_texels());
+      if (known == of_.skies_.end()) return pack_faces(quads, append, of_.record_parts());
       if (!of_.tints_.any()) return repack_faces(*known->second, quads, append);
       return repack_faces(with_tints(*known->second, true), quads, append);
     };

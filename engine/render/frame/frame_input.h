@@ -1,6 +1,7 @@
 #pragma once
 #include <volk.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/gtc/quaternion.hpp>
@@ -21,6 +22,12 @@ struct IslandLand {
   glm::vec3 centre{0.0f}, half{0.0f};  ///< half its extent; 0: it hides nothing
 };
 
+/// A direction from which reflected light of sun and moon has been followed on an island.
+struct KeyedBody {
+  glm::vec3 direction{0.0f};  ///< unit, in the lattice
+  float weight = 0.0f;        ///< of that light, 0..1; 0: there is none
+};
+
 /// Where an island is this frame. Its index in FrameInput::islands is what Section::island holds.
 struct IslandPlacement {
   FixedPos origin{};                        ///< of its lattice
@@ -29,6 +36,7 @@ struct IslandPlacement {
   bool far = false;  ///< so small in the picture that its heading may be rounded for its sky
   int level = 0;     ///< of detail: edges of its voxels are 2^level blocks
   IslandLand land{};
+  std::array<KeyedBody, 2> keyed{};  ///< by slot of its records; the weights sum to at most 1
 };
 
 /// The block that a player points at: an outline over the picture, and cracks as it is dug.

@@ -173,7 +173,8 @@ Result<void> IndirectStore::put(gpu::Uploader& uploader, std::uint32_t island,
     table[i / 4][static_cast<int>(i % 4)] =
         brick == 0 ? 0
                    : (range->first + (brick - 1) * shared::kIndirectBrickTexels) |
-                         (chunk.tinted ? shared::kIndirectTinted : 0u);
+                         (chunk.tinted ? shared::kIndirectTinted : 0u) |
+                         (chunk.keyed ? shared::kIndirectKeyed : 0u);
   }
   SKERRY_ASSERT(std::size_t{bricks} * shared::kIndirectBrickTexels <= texels.size());
   for (std::size_t i = 0; i < bricks * shared::kIndirectBrickTexels; ++i)

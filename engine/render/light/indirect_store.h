@@ -30,6 +30,7 @@ struct ChunkSkyLight {
   std::span<const glm::uvec4> texels;
   bool changed = true;  ///< since it was last put
   bool tinted = false;  ///< records have a tint
+  bool keyed = false;   ///< and light from key directions
 };
 
 /// How much surfaces see of the sky, on the GPU: one buffer of texels. Writes go through the

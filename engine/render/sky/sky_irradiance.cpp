@@ -89,6 +89,8 @@ using Lobes = std::array<float, kFaces * 3 * shared::kSkyLobes>;
 using Harmonics = std::array<glm::vec3, kHarmonics>;
 
 using Basis = std::array<float, kHarmonics>;
+/// Irradiance of bodies, by slot of key directions.
+using Keyed = std::array<glm::vec3, std::tuple_size_v<decltype(IslandPlacement::keyed)>>;
 
 void add(Harmonics& sum, const Basis& basis, const glm::vec3& light) {
   for (std::size_t i = 0; i < kHarmonics; ++i) sum[i] += light * basis[i];
@@ -104,6 +106,15 @@ void add_body(Harmonics& sum, const glm::vec3& direction, const glm::vec3& irrad
   const Basis basis = harmonics_of(direction.x, direction.y, direction.z);
   for (std::size_t i = 0; i < kHarmonics; ++i)
     sum[i] += irradiance * (basis[i] * (i == 0 ? mean : shape));
+}
+
+/// 1 near the direction, 0 far from it.
+float near_key(const glm::vec3& to_body, const KeyedBody& key) {
+  if (key.weight == 0.0f) return 0.0f;
+  // By the chord, which is exact where the cosine is not.
+  const double chord = glm::length(glm::dvec3(to_body) - glm::dvec3(key.direction));
+  const double angle_deg = glm::degrees(2.0 * std::asin(std::min(0.5 * chord, 1.0)));
+  return static_cast<float>(1.0 - glm::smoothstep(kNearKeyDeg, kFarFromKeyDeg, angle_deg));
 }
 
 glm::vec3 sum_of(const Harmonics& harmonics, const Basis& basis) {
@@ -156,6 +167,10 @@ class OpenSky {
   /// Takes away what other islands hide from one, and puts in its place what they send.
   void hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& lobes,
             Harmonics& harmonics) const;
+  /// Takes sun and moon out of what an island gets as harmonics, as far as their light has been
+  /// followed from key directions. @return that light.
+  Keyed take_keyed(const IslandPlacement& island, const IslandShade& shade,
+                   Harmonics& harmonics) const;
 
  private:
   void sum_headings();
@@ -339,6 +354,26 @@ void OpenSky::hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& 
   hide_body(bodies_.to_moon, bodies_.moon_irradiance);
 }
 
+Keyed OpenSky::take_keyed(const IslandPlacement& island, const IslandShade& shade,
+                          Harmonics& harmonics) const {
+  Keyed out{};
+  const auto take = [&](const glm::dvec3& to_body, glm::vec3 irradiance) {
+    if (irradiance == glm::vec3(0.0f)) return;
+    if (const std::optional<IslandShade::Open> open = shade.towards(glm::vec3(to_body)))
+      irradiance *= open->all;
+    const glm::vec3 direction(glm::conjugate(island.rotation) * to_body);
+    for (std::size_t slot = 0; slot < out.size(); ++slot) {
+      const glm::vec3 part =
+          irradiance * (island.keyed[slot].weight * near_key(direction, island.keyed[slot]));
+      add_body(harmonics, direction, -part, 1.0f, kShapeOfBodies);
+      out[slot] += part;
+    }
+  };
+  take(bodies_.to_sun, bodies_.sun_irradiance);
+  take(bodies_.to_moon, bodies_.moon_irradiance);
+  return out;
+}
+
 /// Takes away what steps and overhangs hide that voxels of a coarse level have not got: shares of
 /// light that arrives at levels 1, 2 and from 3 on, measured: decision 0065.
 void coarsen(int level, Lobes& lobes, Harmonics& harmonics) {
@@ -352,8 +387,10 @@ void coarsen(int level, Lobes& lobes, Harmonics& harmonics) {
 }
 
 /// @param out of kIndirectIslandTexels.
-void write(std::span<glm::uvec4> out, const Lobes& lobes, const Harmonics& harmonics) {
-  constexpr std::size_t kOfHalves = shared::kIndirectIslandTexels - 1, kShape = kHarmonics - 1;
+void write(std::span<glm::uvec4> out, const Lobes& lobes, const Harmonics& harmonics,
+           const Keyed& keyed = {}) {
+  static_assert(shared::kIndirectKeys + std::tuple_size_v<Keyed> == shared::kIndirectIslandTexels);
+  constexpr std::size_t kOfHalves = shared::kIndirectKeys - 1, kShape = kHarmonics - 1;
   std::array<float, std::tuple_size_v<Lobes> + 3 * kShape> numbers;
   std::copy(lobes.begin(), lobes.end(), numbers.begin());
   for (std::size_t channel = 0; channel < 3; ++channel)
@@ -364,6 +401,8 @@ void write(std::span<glm::uvec4> out, const Lobes& lobes, const Harmonics& harmo
   static_assert(sizeof(halves) == kOfHalves * sizeof(glm::uvec4));
   std::memcpy(out.data(), halves.data(), sizeof(halves));
   out[kOfHalves] = glm::uvec4(std::bit_cast<glm::uvec3>(harmonics[0]), 0);
+  for (std::size_t slot = 0; slot < keyed.size(); ++slot)
+    out[shared::kIndirectKeys + slot] = glm::uvec4(std::bit_cast<glm::uvec3>(keyed[slot]), 0);
 }
 
 /// A sky of one island, or of all far ones of a heading.
@@ -438,9 +477,10 @@ std::vector<glm::uvec4> sky_irradiance(const SkyModel& sky, const Celestial& bod
     Lobes lobes = is_upright(rotation) ? open.upright(heading_of(rotation)) : open.tilted(rotation);
     Harmonics harmonics = open.harmonics(rotation);
     coarsen(island.level, lobes, harmonics);
-    open.hide(IslandShade(islands, hiding, sky_of.island, share_of_shade(island, eye)), rotation,
-              lobes, harmonics);
-    write(to, lobes, harmonics);
+    const IslandShade shade(islands, hiding, sky_of.island, share_of_shade(island, eye));
+    open.hide(shade, rotation, lobes, harmonics);
+    const Keyed keyed = open.take_keyed(island, shade, harmonics);
+    write(to, lobes, harmonics, keyed);
   };
   share_calls(skies.size(), kSkiesAPiece, [&](std::size_t k) {
     work_out(skies[k], std::span(out).subspan(first + k * shared::kIndirectIslandTexels,

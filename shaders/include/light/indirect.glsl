@@ -9,7 +9,11 @@ layout(binding = kIslandSkiesBinding) uniform usamplerBuffer island_skies;
 
 uvec4 indirect_texel(bool known, uint index) { return texelFetch(indirect_texels, int(known ? index : 0u)); }
 
-// Where a surface's record is, with kIndirectTinted if it has a tint; 0: it has none.
+const uint kRecordParts = kIndirectTinted | kIndirectKeyed;
+// How many of them.
+uint record_parts(uint record) { return (record >> 31) + ((record >> 30) & 1u); }
+
+// Where a surface's record is, with kRecordParts; 0: it has none.
 uint sky_record(uvec4 grid, uint face, ivec3 voxel) {
   ivec3 low = (ivec3(grid.x) << ivec3(22, 12, 2)) >> 22;
   ivec3 size = ivec3(grid.y & 255u, (grid.y >> 8) & 255u, (grid.y >> 16) & 255u);
@@ -20,15 +24,15 @@ uint sky_record(uvec4 grid, uint face, ivec3 voxel) {
   uvec4 bricks = indirect_texel(known, table + uint(brick.y * 16 + brick.x * 2 + (brick.z >> 2)));
   uint first = (brick.z & 2) != 0 ? ((brick.z & 1) != 0 ? bricks.w : bricks.z) : ((brick.z & 1) != 0 ? bricks.y : bricks.x);
   known = known && first != 0u;
-  uint tinted = first & kIndirectTinted;
-  uvec4 masks = indirect_texel(known, (first ^ tinted) + face * 8u + uint(voxel.y & 7));
+  uint parts = first & kRecordParts;
+  uvec4 masks = indirect_texel(known, (first ^ parts) + face * 8u + uint(voxel.y & 7));
   bool far = (voxel.x & 4) != 0;
   uint mask = far ? masks.y : masks.x, record = far ? masks.w : masks.z;
   uint bit = uint((voxel.z & 7) + 8 * (voxel.x & 3));
   known = known && ((mask >> bit) & 1u) != 0u;
   uint unlisted = grid.w == kIndirectOpen ? kIndirectOpenRecord : 0u;
-  uint texels = kIndirectRecordTexels + (tinted >> 31);
-  return known ? (record + texels * bitCount(mask & ((1u << bit) - 1u))) | tinted : unlisted;
+  uint texels = kIndirectRecordTexels + record_parts(parts);
+  return known ? (record + texels * bitCount(mask & ((1u << bit) - 1u))) | parts : unlisted;
 }
 
 // Three numbers with a shared exponent.
@@ -48,6 +52,15 @@ vec3 bounced_light(uvec4 bounce, uint island, vec2 at) {
   }
   vec4 shares = unpackUnorm4x8(bounce.y);
   return shared_exponent(bounce.x) * max(sum, 0.0) * mix(mix(shares.x, shares.y, at.x), mix(shares.z, shares.w, at.x), at.y);
+}
+
+// Light of sun and moon that other faces reflect, as followed from key directions. @param keyed a record's texel.
+vec3 keyed_light(uvec4 keyed, uint island, vec2 at) {
+  uint first = island_sky(island) + kIndirectKeys;
+  vec3 bodies_0 = uintBitsToFloat(texelFetch(island_skies, int(first)).xyz), bodies_1 = uintBitsToFloat(texelFetch(island_skies, int(first + 1u)).xyz);
+  vec4 shares_0 = unpackUnorm4x8(keyed.y), shares_1 = unpackUnorm4x8(keyed.w);
+  return shared_exponent(keyed.x) * bodies_0 * mix(mix(shares_0.x, shares_0.y, at.x), mix(shares_0.z, shares_0.w, at.x), at.y) +
+         shared_exponent(keyed.z) * bodies_1 * mix(mix(shares_1.x, shares_1.y, at.x), mix(shares_1.z, shares_1.w, at.x), at.y);
 }
 
 // Pixels' middles lie past a face's edge where a rasteriser has rounded its corners, to 1/256 of a pixel.
@@ -97,8 +110,9 @@ FaceSky sky_of_face(vec3 position, uint word) {
   vec3 place = lattice * exp2(-float(grid.y >> 24));
   // Of a face, the voxel behind it; of a plant, its own.
   ivec3 voxel = ivec3(floor(plant ? place + vec3(0.0, 0.001, 0.0) : place - 0.5 * face_normal(face)));
-  uint record = record_at(grid, face, place, voxel), tinted = record >> 31;
-  record &= ~kIndirectTinted;
+  uint record = record_at(grid, face, place, voxel), tinted = record >> 31, parts = record_parts(record);
+  bool keyed = (record & kIndirectKeyed) != 0u;
+  record &= ~kRecordParts;
   uvec4 near = indirect_texel(record != 0u, record), far = indirect_texel(record != 0u, record + 1u);
   vec3 in_voxel = clamp(place - vec3(voxel), 0.0, 1.0);
   vec2 at = face < 2u ? in_voxel.yz : face < 4u ? in_voxel.zx : in_voxel.xy;
@@ -115,7 +129,7 @@ FaceSky sky_of_face(vec3 position, uint word) {
   // A loop that ends at once where nothing is tinted: lavapipe runs all that an `if` holds.
   sky.tint = vec3(1.0);
   for (; tinted != 0u; --tinted) {
-    uvec4 tint = indirect_texel(true, record + kIndirectRecordTexels);
+    uvec4 tint = indirect_texel(true, record + kIndirectRecordTexels + parts - 1u);
     sky.tint = mix(mix(shared_exponent(tint.x), shared_exponent(tint.y), at.x), mix(shared_exponent(tint.z), shared_exponent(tint.w), at.x), at.y);
   }
   sky.irradiance *= sky.tint;
@@ -124,6 +138,7 @@ FaceSky sky_of_face(vec3 position, uint word) {
     uvec4 lamps = indirect_texel(record != 0u, record + 2u);
     sky.lamps = mix(mix(shared_exponent(lamps.x), shared_exponent(lamps.y), at.x), mix(shared_exponent(lamps.z), shared_exponent(lamps.w), at.x), at.y);
     sky.bounced = bounced_light(indirect_texel(record != 0u, record + 3u), island, at);
+    if (keyed) sky.bounced += keyed_light(indirect_texel(keyed, record + kIndirectRecordTexels), island, at);
     sky.irradiance += sky.lamps + sky.bounced;
   }
   if (!sky.known) {

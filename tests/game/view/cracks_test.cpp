@@ -88,7 +88,7 @@ class CracksTest : public gpu::GpuTest {
 
   static Words seen(SceneView& view, const SceneView::Moment& moment,
                     std::optional<double> blend_s = {}) {
-    EXPECT_TRUE(view.load_completely(moment.camera, moment.world_time_s, blend_s));
+    EXPECT_TRUE(view.load_completely(moment, blend_s));
     EXPECT_TRUE(view.draw(moment, kSize));
     view.renderer().finish();
     const std::vector<std::byte>& texels =

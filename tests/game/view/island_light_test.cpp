@@ -6,8 +6,12 @@
 #include <latch>
 #include <map>
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "game/view/light_chunk.h"
+#include "game/view/materials.h"
 #include "world/islands/world.h"
 #include "world/light/face_records.h"
 
@@ -28,7 +32,8 @@ class LitIsland : public testing::Test {
         if (!ready.key.far) sections_.push_back(std::move(ready));
     for (const world::ReadySection& ready : sections_)
       light_.add(ready.key, light_chunk_of(ready, {}, {}));
-    light_.start(streamer_, [] { return IslandLight::Distances{}; });
+    light_.start(
+        streamer_, [] { return IslandLight::NearIslands{}; }, false);
     light_.wait();
     light_.poll_reach();
     poll();
@@ -120,6 +125,83 @@ TEST_F(LitIsland, TheLastOfTwoClosingsCounts) {
   light_.wait();
   poll();
   EXPECT_EQ(*said_.at(section.key), closed(*before, all));
+}
+
+/// The same island in full detail, with the light that its faces reflect.
+class KeyedIsland : public testing::Test {
+ protected:
+  KeyedIsland() {
+    const world::StreamView view{world::moved(world_.origin(), {0.0, 60.0, 0.0})};
+    streamer_.update(view, {.view_distance_blocks = 320.0, .detail_distance_blocks = 320.0});
+    streamer_.wait_until_complete();
+    while (!streamer_.complete())
+      for (world::ReadySection& ready : streamer_.poll(~std::size_t{0}).ready)
+        if (!ready.key.far && ready.key.level == 0) sections_.push_back(std::move(ready));
+    for (const world::ReadySection& ready : sections_)
+      chunks_[ready.key.chunk] =
+          std::make_shared<const world::LightChunk>(light_chunk_of(ready, {}, {}));
+    row_ = sections_.front().key.row();
+  }
+  void fill(IslandLight& light) const {
+    for (const world::ReadySection& ready : sections_)
+      light.add(ready.key, light_chunk_of(ready, {}, {}));
+  }
+  IslandLight::Found look(IslandLight& light, std::optional<IslandLight::Key> key) {
+    light.start(
+        streamer_,
+        [&] {
+          return IslandLight::NearIslands{{row_, {.distance = 0.0, .keyed = true, .key = key}}};
+        },
+        true);
+    light.wait();
+    light.poll_reach();
+    std::vector<IslandLight::Found> found = light.poll();
+    EXPECT_EQ(found.size(), 1u);
+    return found.empty() ? IslandLight::Found{} : std::move(found.front());
+  }
+  /// Whether that is what a look from nothing finds.
+  bool is_right(const IslandLight::Found& found, const world::KeyDirections& keys) const {
+    world::SkyTransfer right(chunks_, albedo_table(), world::BounceLight::kBounces, 0, keys);
+    for (int octant = 0; octant < world::kOctants; ++octant) right.look(octant);
+    right.spread_lamps();
+    for (int step = 0; step < world::BounceLight::kSteps; ++step)
+      for (int part = 0; part < world::BounceLight::kParts; ++part)
+        right.follow_bounces(step, part);
+    right.make_faces();
+    return found.keys == keys && found.chunks.size() == right.faces().size() &&
+           std::ranges::all_of(found.chunks, [&](const IslandLight::FoundChunk& chunk) {
+             return *chunk.sky == *right.faces().at(chunk.at);
+           });
+  }
+
+  world::World world_{{.seed = 1, .island_limit = 1}};
+  Jobs jobs_{2};
+  world::Streamer streamer_{world_, jobs_, world::StreamOf::kMeshesAndOccupancy};
+  WorkerThreads threads_{2};
+  std::vector<world::ReadySection> sections_;
+  world::LightChunks chunks_;
+  world::IslandLevel row_;
+  const glm::vec3 morning_{0.8f, 0.6f, 0.0f}, noon_{0.0f, 0.8f, 0.6f};
+};
+
+TEST_F(KeyedIsland, IsFollowedFromWhereItIsAskedTo) {
+  IslandLight light(threads_, IslandLight::Finds::kBounces);
+  fill(light);
+  EXPECT_TRUE(is_right(look(light, {}), {}));
+  EXPECT_TRUE(is_right(look(light, {{0, morning_}}), {morning_, std::nullopt}));
+  EXPECT_TRUE(is_right(look(light, {{1, noon_}}), {morning_, noon_}));
+}
+
+// What is cached depends on the direction alone, not on what was shown before.
+TEST_F(KeyedIsland, WithACacheItIsFoundOncePerDirection) {
+  world::LightCache cache(std::size_t{1} << 30);
+  IslandLight light(threads_, IslandLight::Finds::kBounces, &cache);
+  fill(light);
+  EXPECT_TRUE(is_right(look(light, {{0, morning_}}), {morning_, std::nullopt}));
+  EXPECT_TRUE(is_right(look(light, {{1, noon_}}), {noon_, std::nullopt}));
+  EXPECT_EQ(cache.stats().found, 0u);
+  EXPECT_TRUE(is_right(look(light, {{1, morning_}}), {morning_, std::nullopt}));
+  EXPECT_EQ(cache.stats().found, 1u);
 }
 
 }  // namespace

@@ -65,8 +65,8 @@ TEST_F(LaggingShadows, ChangeFewPixelsOfAFlight) {
   constexpr int kFrames = 90;
   for (int frame = 0; frame < kFrames; ++frame) {
     if (frame % 15 == 0) {
-      ASSERT_TRUE(lagging->load_completely(moment.camera, moment.world_time_s));
-      ASSERT_TRUE(exact->load_completely(moment.camera, moment.world_time_s));
+      ASSERT_TRUE(lagging->load_completely(moment));
+      ASSERT_TRUE(exact->load_completely(moment));
     }
     moment.may_lag = true;
     const Bytes shown = picture(*lagging, moment);

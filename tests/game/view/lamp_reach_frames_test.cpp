@@ -48,7 +48,7 @@ class LampReachFrames : public gpu::GpuTest {
     if (asked.eye) moment.camera.position = *asked.eye;
     moment.camera.yaw_deg += turn_deg;
     moment.time_of_day_s = 0.0;
-    EXPECT_TRUE(view.load_completely(moment.camera, moment.world_time_s));
+    EXPECT_TRUE(view.load_completely(moment));
     EXPECT_TRUE(view.draw(moment, kSize));
     view.renderer().finish();
     auto picture = gpu::read_back(device(), view.renderer().picture(), 4);

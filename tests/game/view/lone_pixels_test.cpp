@@ -51,7 +51,7 @@ class LonePixels : public gpu::GpuTest {
     moment.time_of_day_s = 16.5 * 3600.0;
     const render::FixedPos middle = render::fixed_at({40.5, 14.3, 40.5});
     moment.camera.position = middle;
-    EXPECT_TRUE(view.load_completely(moment.camera, moment.world_time_s));
+    EXPECT_TRUE(view.load_completely(moment));
     render::RandomPlaces random(1);
     int found = 0;
     for (int i = 0; i < 5; ++i) {

@@ -49,8 +49,7 @@ class SceneMemory : public gpu::GpuTest {
   }
   /// One frame of a flight; false: it failed.
   static testing::AssertionResult frame(SceneView& view, const SceneView::Moment& moment) {
-    if (const Result<void> done = view.stream(moment.camera, moment.world_time_s, 1.0 / 60.0);
-        !done)
+    if (const Result<void> done = view.stream(moment, 1.0 / 60.0); !done)
       return testing::AssertionFailure() << done.error().message;
     if (const auto drawn = view.draw(moment, kSize); !drawn)
       return testing::AssertionFailure() << drawn.error().message;
@@ -181,7 +180,7 @@ TEST_F(SceneMemory, AStillOfMoreThanItHoldsIsTheSameEachTime) {
     const auto tight = view(8);
     SceneView::Moment moment;
     moment.camera = tight->start_camera();
-    ASSERT_TRUE(tight->load_completely(moment.camera, 0.0));
+    ASSERT_TRUE(tight->load_completely(moment));
     EXPECT_TRUE(tight->complete());
     EXPECT_FALSE(tight->notices().empty());
     ASSERT_TRUE(tight->draw(moment, kSize));

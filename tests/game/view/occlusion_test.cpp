@@ -58,8 +58,7 @@ class OcclusionTest : public gpu::GpuTest {
     const render::FixedPos start = render::fixed_at(place);
     moment.camera.position = start;
     moment.world_time_s = time_s;
-    for (SceneView* view : {all.get(), some.get()})
-      ASSERT_TRUE(view->load_completely(moment.camera, moment.world_time_s));
+    for (SceneView* view : {all.get(), some.get()}) ASSERT_TRUE(view->load_completely(moment));
     render::RandomPlaces random(frames);
     for (int i = 0; i < frames; ++i) {
       if (i % 8 == 0) {  // a cut, now and then to within rock

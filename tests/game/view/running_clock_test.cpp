@@ -34,7 +34,7 @@ class RunningClock : public gpu::GpuTest {
     moment_.camera = view_->start_camera();
     moment_.camera.yaw_deg = 270.0;
     moment_.camera.pitch_deg = 5.0;
-    ASSERT_TRUE(view_->load_completely(moment_.camera, 0.0));
+    ASSERT_TRUE(view_->load_completely(moment_));
   }
 
   Bytes picture(int time_of_day_s) {

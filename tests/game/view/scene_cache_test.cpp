@@ -38,7 +38,7 @@ class SceneCacheFrames : public gpu::GpuTest {
   static Picture draw(gpu::Device& device, SceneView& view) {
     SceneView::Moment moment;
     moment.camera = view.start_camera();
-    EXPECT_TRUE(view.load_completely(moment.camera, moment.world_time_s));
+    EXPECT_TRUE(view.load_completely(moment));
     EXPECT_TRUE(view.draw(moment, kSize));
     view.renderer().finish();
     auto picture = gpu::read_back(device, view.renderer().picture(), 4);

@@ -1,4 +1,4 @@
-#include "game/view/section_cuts.h"
+#include "game/sections/section_cuts.h"
 
 #include <gtest/gtest.h>
 

@@ -89,7 +89,8 @@ TEST(SkyIrradiance, IsTheCosineWeightedSkyOfEachFace) {
     const std::vector<IslandPlacement> islands(1);
     const std::vector<glm::uvec4> lobes =
         sky_irradiance(sky, bodies, islands, std::vector<bool>(islands.size(), true), {});
-    ASSERT_EQ(lobes.size(), 1u + 22u + 22u);  // which one, the dark one, its own
+    ASSERT_EQ(lobes.size(),
+              1u + 2u * shared::kIndirectIslandTexels);  // which one, the dark one, its own
     for (std::size_t face = 0; face < 6; ++face) {
       const glm::dvec3 found = whole(lobes, 0, face), right = by_samples(sky, face_normal(face));
       for (int c = 0; c < 3; ++c)
@@ -162,6 +163,50 @@ TEST(SkyIrradiance, HarmonicsAreThoseOfSkyAndBodiesAboutTheIslandsAxes) {
                    of_sky[static_cast<std::size_t>(c)][i] * basis[i];
         EXPECT_NEAR(found, right[c], 0.06 * right[c] + 1e-6) << hour << "h face " << face;
       }
+    }
+  }
+}
+
+glm::dvec3 keyed_in(const std::vector<glm::uvec4>& sky, std::size_t island, std::size_t slot) {
+  return std::bit_cast<glm::vec3>(
+      glm::uvec3(sky[first_of(sky, island) + shared::kIndirectKeys + slot]));
+}
+
+// From a key direction at the sun on, its light changes over from there to the harmonics.
+TEST(SkyIrradiance, AKeyDirectionTakesTheSunFromTheHarmonics) {
+  for (const double hour : {12.0, 8.0, 0.0}) {
+    Celestial bodies = celestial_at(hour * 3600.0, 0.5);
+    const bool day = hour > 0.0;
+    const glm::dvec3 to_body = day ? bodies.to_sun : bodies.to_moon;
+    const glm::dvec3 sent(day ? bodies.sun_irradiance : bodies.moon_irradiance);
+    const SkyModel sky = sky_model(bodies);
+    std::vector<IslandPlacement> islands(1);
+    islands[0].rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(0.5, 1.0, 0.2)));
+    const auto with_all = harmonics_in(sky_irradiance(sky, bodies, islands, {true}, {}), 0);
+    Celestial without = bodies;
+    (day ? without.sun_irradiance : without.moon_irradiance) = glm::vec3(0.0f);
+    const auto without_body = harmonics_in(sky_irradiance(sky, without, islands, {true}, {}), 0);
+    const glm::dvec3 across = glm::normalize(glm::cross(to_body, glm::dvec3(0.3, 0.2, 0.9)));
+    double before = 2.0;
+    for (const double off_deg : {0.0, 3.9, 5.5, 7.0, 8.5, 10.1, 90.0, 180.0}) {
+      const glm::dvec3 key = glm::angleAxis(glm::radians(off_deg), across) * to_body;
+      islands[0].keyed[1] = {glm::vec3(glm::conjugate(islands[0].rotation) * key), 0.75f};
+      islands[0].keyed[0] = {glm::vec3(0.0f, 1.0f, 0.0f), 0.0f};
+      const std::vector<glm::uvec4> now = sky_irradiance(sky, bodies, islands, {true}, {});
+      const double share = keyed_in(now, 0, 1).y / sent.y;
+      EXPECT_LT(share, before + 1e-6) << off_deg;
+      before = share;
+      if (off_deg < kNearKeyDeg || off_deg > kFarFromKeyDeg) {
+        EXPECT_NEAR(share, off_deg < kNearKeyDeg ? 0.75 : 0.0, 1e-4) << off_deg;
+      }
+      EXPECT_EQ(keyed_in(now, 0, 0), glm::dvec3(0.0));
+      const auto harmonics = harmonics_in(now, 0);
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < kHarmonics; ++i)
+          EXPECT_NEAR(harmonics[c][i],
+                      with_all[c][i] + share * (without_body[c][i] - with_all[c][i]),
+                      2e-3 * with_all[c][0])
+              << hour << "h, " << off_deg << " degrees, harmonic " << i;
     }
   }
 }
@@ -297,7 +342,7 @@ TEST(SkyIrradiance, FarIslandsShareTheSkiesOfSixtyFourHeadings) {
   const Celestial bodies = celestial_at(8.0 * 3600.0, 0.5);
   const SkyModel sky = sky_model(bodies);
   const std::vector<glm::uvec4> far = sky_irradiance(sky, bodies, islands, shown, {});
-  EXPECT_LE(far.size(), 125u + 65u * 22u);
+  EXPECT_LE(far.size(), 125u + 65u * shared::kIndirectIslandTexels);
   for (const double value : numbers_of(far, 3)) EXPECT_EQ(value, 0.0);
   for (IslandPlacement& island : islands) island.far = false;
   const std::vector<glm::uvec4> near = sky_irradiance(sky, bodies, islands, shown, {});

@@ -13,7 +13,7 @@
 #include <random>
 
 #include "tests/world/light/voxel_rooms.h"
-#include "world/light/shared_exponent.h"
+#include "world/light/base/shared_exponent.h"
 #include "world/light/sky_transfer.h"
 #include "world/voxel/blocks.h"
 

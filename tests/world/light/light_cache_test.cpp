@@ -37,7 +37,7 @@ LightCache::Light light_of(const LightChunks& chunks) {
 
 std::size_t bytes_with(const LightChunks& chunks) {
   LightCache cache(std::size_t{1} << 30);
-  cache.keep(chunks, Kind::kSky, light_of(chunks));
+  cache.keep(chunks, Kind::kSky, {}, light_of(chunks));
   return cache.stats().bytes;
 }
 
@@ -45,7 +45,7 @@ TEST(LightCache, FindsWhatWasFoundOfTheSameContents) {
   LightCache cache(1 << 24);
   const LightChunks chunks = heap();
   EXPECT_EQ(cache.find(chunks, Kind::kSky), nullptr);
-  cache.keep(chunks, Kind::kSky, light_of(chunks));
+  cache.keep(chunks, Kind::kSky, {}, light_of(chunks));
   const auto found = cache.find(copied(chunks), Kind::kSky);
   ASSERT_NE(found, nullptr);
   const LightCache::Light fresh = light_of(chunks);
@@ -71,7 +71,7 @@ TEST(LightCache, TellsApartAllThatLightDependsOn) {
     c.strong.push_back(strong);
     c.lamps.front().intensity.x = 0.0f;
   });
-  cache.keep(chunks, Kind::kSky, light_of(chunks));
+  cache.keep(chunks, Kind::kSky, {}, light_of(chunks));
   ASSERT_NE(cache.find(copied(chunks), Kind::kSky), nullptr);
   EXPECT_EQ(cache.find(chunks, Kind::kBounces), nullptr);
 
@@ -107,10 +107,10 @@ TEST(LightCache, EvictsTheLeastRecentlyUsed) {
   const LightChunks a = heap(3), b = heap(4), c = heap(5);
   const std::size_t room = bytes_with(a) + bytes_with(b) + bytes_with(c) - 1;
   LightCache cache(room);
-  cache.keep(a, Kind::kSky, light_of(a));
-  cache.keep(b, Kind::kSky, light_of(b));
+  cache.keep(a, Kind::kSky, {}, light_of(a));
+  cache.keep(b, Kind::kSky, {}, light_of(b));
   const auto held = cache.find(a, Kind::kSky);  // so that b has not been used for longer
-  cache.keep(c, Kind::kSky, light_of(c));
+  cache.keep(c, Kind::kSky, {}, light_of(c));
   EXPECT_NE(cache.find(a, Kind::kSky), nullptr);
   EXPECT_EQ(cache.find(b, Kind::kSky), nullptr);
   EXPECT_NE(cache.find(c, Kind::kSky), nullptr);
@@ -118,8 +118,8 @@ TEST(LightCache, EvictsTheLeastRecentlyUsed) {
   EXPECT_EQ(cache.stats().bytes, bytes_with(a) + bytes_with(c));
 
   LightCache small(bytes_with(c) - 1);
-  small.keep(a, Kind::kSky, light_of(a));
-  small.keep(c, Kind::kSky, light_of(c));  // more than all of it
+  small.keep(a, Kind::kSky, {}, light_of(a));
+  small.keep(c, Kind::kSky, {}, light_of(c));  // more than all of it
   EXPECT_EQ(small.find(c, Kind::kSky), nullptr);
   EXPECT_NE(small.find(a, Kind::kSky), nullptr);
 }
@@ -150,7 +150,7 @@ TEST(LightCache, ServesThreadsAtOnce) {
         if (found) {
           EXPECT_EQ(found->skies.size(), light_of(island).skies.size());
         } else {
-          cache.keep(island, Kind::kSky, light_of(island));
+          cache.keep(island, Kind::kSky, {}, light_of(island));
         }
       }
     });

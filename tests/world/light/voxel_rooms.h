@@ -95,8 +95,11 @@ inline LightChunks chunks_of(const Voxels& stone, const Lamps& lamps = {},
 }
 
 /// What the GPU would read for a face: 8 words of the sky, 4 of lamps, 4 of bounces, and 4 of a
-/// tint that is not white; empty: no such face.
-inline std::vector<std::uint32_t> record_of(const SkyTransfer::Skies& sky, IVec3 voxel, int face) {
+/// tint that is not white; empty: no such face. @param keyed out: the words of key directions, 0
+/// without.
+inline std::vector<std::uint32_t> record_of(const SkyTransfer::Skies& sky, IVec3 voxel, int face,
+                                            glm::uvec4* keyed = nullptr) {
+  if (keyed) *keyed = glm::uvec4(0);
   const IVec3 at = chunk_holding(voxel);
   const auto found = sky.find(at);
   if (found == sky.end()) return {};
@@ -109,12 +112,14 @@ inline std::vector<std::uint32_t> record_of(const SkyTransfer::Skies& sky, IVec3
   const int half = x / 4 % 2, bit = z % 8 + 8 * (x % 4);
   if ((masks[half] >> bit & 1u) == 0) return {};
   std::size_t record = masks[2 + half];
-  for (int i = 0; i < bit; ++i) record += chunk.record_texels * (masks[half] >> i & 1u);
+  for (int i = 0; i < bit; ++i) record += chunk.record_texels() * (masks[half] >> i & 1u);
   const glm::uvec4 a = chunk.texels[record], b = chunk.texels[record + 1],
                    c = chunk.texels[record + 2], d = chunk.texels[record + 3];
   std::vector<std::uint32_t> words{a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w,
                                    c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w};
-  const glm::uvec4 tint = chunk.tinted() ? chunk.texels[record + 4] : white_tint();
+  const glm::uvec4 tint =
+      chunk.parts.tinted ? chunk.texels[record + chunk.parts.before_tint()] : white_tint();
+  if (keyed && chunk.parts.keyed) *keyed = chunk.texels[record + 4];
   for (int i = 0; i < 4 && tint != white_tint(); ++i) words.push_back(tint[i]);
   return words;
 }

@@ -135,8 +135,7 @@ class Editing {
                     kMostFrames)};
   }
   Result<std::uint64_t> frame() {
-    if (const auto done = view_.stream(moment_.camera, moment_.world_time_s); !done)
-      return done.error();
+    if (const auto done = view_.stream(moment_); !done) return done.error();
     return view_.draw(moment_, size_);
   }
 
@@ -188,8 +187,9 @@ int bench_edit(const BenchEditOptions& options) {
     return fail(kUsage, fits.error());
   Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(**device, options.scene);
   if (!view) return fail(kFailed, view.error());
-  if (Result<void> loaded =
-          (*view)->load_completely((*view)->start_camera(), options.scene.settings.world_time_s);
+  if (Result<void> loaded = (*view)->load_completely(
+          {(*view)->start_camera(), static_cast<double>(options.scene.time_of_day_s),
+           options.scene.settings.world_time_s});
       !loaded)
     return fail(kFailed, loaded.error());
 

@@ -96,8 +96,7 @@ class Pair {
       : device_(&device), size_{scene.size.width, scene.size.height} {}
 
   Result<Bytes> draw(game::SceneView& view, const game::SceneView::Moment& moment) const {
-    if (Result<void> loaded = view.load_completely(moment.camera, moment.world_time_s); !loaded)
-      return loaded.error();
+    if (Result<void> loaded = view.load_completely(moment); !loaded) return loaded.error();
     return drawn_picture(*device_, view, moment, size_);
   }
 

@@ -69,8 +69,7 @@ class Flight {
 
   /// As who stood there for a while: all is in view, and no program is still being made.
   Result<void> begin(gpu::Device& device) {
-    if (Result<void> loaded = view_.load_completely(moment_.camera, moment_.world_time_s); !loaded)
-      return loaded;
+    if (Result<void> loaded = view_.load_completely(moment_); !loaded) return loaded;
     view_.renderer().foresee_programs();
     for (int i = 0; i < 8; ++i) {
       const Result<std::uint64_t> value = view_.draw(moment_, size_);
@@ -93,8 +92,7 @@ class Flight {
       const int programs = view_.renderer().programs_made();
       const std::uint64_t allocations = device.allocations();
       Stopwatch watch;
-      const Result<void> done =
-          view_.stream(moment_.camera, moment_.world_time_s, at_s - std::exchange(last_s, at_s));
+      const Result<void> done = view_.stream(moment_, at_s - std::exchange(last_s, at_s));
       if (!done) return done;
       frame.stream_ms = watch.milliseconds();
       watch.restart();
@@ -332,8 +330,7 @@ Result<Started> wait_until_complete(gpu::Device& device, game::SceneView& view,
     around.refresh(eye, 0.0, moment.world_time_s);
     // Once the ground is known its meshes are made, and handed over by the next call but one.
     const bool was_known = std::exchange(known, is_ground_known(around, eye, moment.world_time_s));
-    if (Result<void> done = view.stream(moment.camera, moment.world_time_s); !done)
-      return done.error();
+    if (Result<void> done = view.stream(moment); !done) return done.error();
     const Result<std::uint64_t> value = view.draw(moment, size);
     if (!value) return value.error();
     const bool handed_over = view.renderer().mesh_uploader().pending_bytes() == 0;

@@ -173,7 +173,7 @@ int bench_frame(const BenchFrameOptions& options) {
                                  static_cast<double>(options.scene.time_of_day_s), world_time_s,
                                  false};
   moment.count_pixels = false;
-  if (Result<void> loaded = (*view)->load_completely(moment.camera, world_time_s); !loaded)
+  if (Result<void> loaded = (*view)->load_completely(moment); !loaded)
     return fail(kFailed, loaded.error());
   const VkExtent2D size{options.scene.size.width, options.scene.size.height};
   Result<Timings> timings = time_frames(**device, **view, moment, options);

@@ -87,7 +87,7 @@ class PopFlight {
   }
 
   Result<void> load(const game::SceneView::Moment& moment, std::optional<double> blend_s = {}) {
-    return view_->load_completely(moment.camera, moment.world_time_s, blend_s);
+    return view_->load_completely(moment, blend_s);
   }
 
   Result<Bytes> draw(const game::SceneView::Moment& moment) {

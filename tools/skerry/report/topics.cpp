@@ -151,10 +151,12 @@ constexpr TopicPoint kReflections[] = {{"0", "", {}, LightDetail{.bounces = 0}},
                                        {"1", "", {}, LightDetail{.bounces = 1}},
                                        {"2", "", {}, LightDetail{.bounces = 2}},
                                        {"3", "", {}, LightDetail{}}};
-constexpr TopicPoint kLightShapes[] = {{"means", "", {}, LightDetail{.lobes = false, .degree = 0}},
-                                       {"lobes, mean", "", {}, LightDetail{.degree = 0}},
-                                       {"lobes, degree 1", "", {}, LightDetail{.degree = 1}},
-                                       {"lobes, degree 2", "", {}, LightDetail{}}};
+constexpr TopicPoint kLightShapes[] = {
+    {"means", "", {}, LightDetail{.lobes = false, .degree = 0, .keyed = false}},
+    {"lobes, mean", "", {}, LightDetail{.degree = 0, .keyed = false}},
+    {"lobes, degree 1", "", {}, LightDetail{.degree = 1, .keyed = false}},
+    {"lobes, degree 2", "", {}, LightDetail{.keyed = false}},
+    {"lobes, degree 2, sun", "", {}, LightDetail{}}};
 constexpr TopicPoint kWaterLayers[] = {{"1", "water.layers=1"},
                                        {"2", "water.layers=2"},
                                        {"3", "water.layers=3"},

@@ -89,8 +89,9 @@ Result<std::unique_ptr<SceneDrawer>> SceneDrawer::create(gpu::Device& device,
   Result<std::unique_ptr<game::SceneView>> view = game::SceneView::create(device, scene, cache);
   if (!view) return view.error();
   drawer->view_ = *std::move(view);
-  if (Result<void> loaded = drawer->view_->load_completely(drawer->view_->start_camera(),
-                                                           scene.settings.world_time_s);
+  if (Result<void> loaded = drawer->view_->load_completely(
+          {drawer->view_->start_camera(), static_cast<double>(scene.time_of_day_s),
+           scene.settings.world_time_s});
       !loaded)
     return loaded.error();
   return drawer;

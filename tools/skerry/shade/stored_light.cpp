@@ -6,9 +6,11 @@
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/packing.hpp>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "engine/core/clock.h"
 #include "engine/core/jobs.h"
@@ -16,11 +18,12 @@
 #include "engine/render/sky/sky_irradiance.h"
 #include "game/panorama/load_panorama.h"
 #include "game/player/player.h"
+#include "game/view/key_fades.h"
 #include "game/view/light_chunk.h"
 #include "game/view/light_setup.h"
 #include "game/view/materials.h"
 #include "game/worlds/open_world.h"
-#include "world/light/shared_exponent.h"
+#include "world/light/base/shared_exponent.h"
 #include "world/stream/stream.h"
 
 namespace skerry::tools {
@@ -66,7 +69,8 @@ LitIslands chunks_in_view(world::World& world, const game::SceneOptions& options
 }
 
 /// @param bounces 0: none are looked for.
-world::SkyTransfer::Skies look(const LitIsland& island, int bounces, Jobs& jobs,
+world::SkyTransfer::Skies look(const LitIsland& island, int bounces,
+                               const world::KeyDirections& keys, Jobs& jobs,
                                std::atomic<double>& seconds) {
   const auto timed = [&seconds](const auto& part) {
     const double begin = thread_seconds();
@@ -77,7 +81,7 @@ world::SkyTransfer::Skies look(const LitIsland& island, int bounces, Jobs& jobs,
   timed([&] {
     transfer.emplace(island.chunks,
                      bounces > 0 ? game::albedo_table() : std::span<const world::FaceAlbedo>{},
-                     bounces);
+                     bounces, 0, keys);
   });
   jobs.parallel_for(world::kOctants + 1, [&](int part) {
     timed([&] { part < world::kOctants ? transfer->look(part) : transfer->spread_lamps(); });
@@ -90,7 +94,8 @@ world::SkyTransfer::Skies look(const LitIsland& island, int bounces, Jobs& jobs,
 }
 
 std::vector<render::IslandPlacement> placements(const world::World& world, double time_s,
-                                                const LitIslands& islands) {
+                                                const LitIslands& islands,
+                                                const std::map<std::uint64_t, glm::vec3>& keys) {
   std::vector<render::IslandPlacement> out;
   for (const auto& [id, island] : islands) {
     const world::Pose pose = *world.pose(id, time_s);
@@ -100,7 +105,10 @@ std::vector<render::IslandPlacement> placements(const world::World& world, doubl
                    spec.bounding_radius,
                    island.chunks.empty(),
                    island.level,
-                   game::land_of(spec)});
+                   game::land_of(spec),
+                   {}});
+    if (const auto key = keys.find(id); key != keys.end())
+      out.back().keyed[0] = {key->second, 1.0f};
   }
   return out;
 }
@@ -170,13 +178,29 @@ glm::dvec3 colour_between(const glm::uvec4& words, glm::dvec2 at) {
   return between_corners(corners, at);
 }
 
+/// @param shares a byte a corner.
+double share_between(std::uint32_t shares, glm::dvec2 at) {
+  std::array<double, 4> corners{};
+  for (std::size_t i = 0; i < 4; ++i)
+    corners[i] = static_cast<double>(shares >> 8 * i & 255u) / 255.0;
+  return between_corners(corners, at);
+}
+
+/// @param bodies irradiance: kIndirectKeys and the texel after.
+glm::dvec3 keyed_light(const glm::uvec4& keyed, std::span<const glm::uvec4> bodies, glm::dvec2 at) {
+  glm::dvec3 sum(0.0);
+  for (int slot = 0; slot < 2; ++slot)
+    sum +=
+        glm::dvec3(world::unpack_shared_exponent(keyed[2 * slot])) *
+        glm::dvec3(std::bit_cast<glm::vec3>(glm::uvec3(bodies[static_cast<std::size_t>(slot)]))) *
+        share_between(keyed[2 * slot + 1], at);
+  return sum;
+}
+
 /// @param sent harmonics of what comes from infinity: kIndirectHarmonics and the texels after.
 /// @param degree of those that count.
 glm::dvec3 bounced_light(const glm::uvec4& bounce, std::span<const glm::uvec4> sent, glm::dvec2 at,
                          int degree) {
-  std::array<double, 4> share{};
-  for (std::size_t i = 0; i < 4; ++i)
-    share[i] = static_cast<double>(bounce.y >> 8 * i & 255u) / 255.0;
   const glm::vec4 low = glm::unpackSnorm4x8(bounce.z), high = glm::unpackSnorm4x8(bounce.w);
   glm::dvec3 sum;
   for (int c = 0; c < 3; ++c) {
@@ -187,7 +211,28 @@ glm::dvec3 bounced_light(const glm::uvec4& bounce, std::span<const glm::uvec4> s
                 half_of(texel, i);
   }
   return glm::dvec3(world::unpack_shared_exponent(bounce.x)) * glm::max(sum, 0.0) *
-         between_corners(share, at);
+         share_between(bounce.y, at);
+}
+
+/// From where light of sun and moon is followed on the nearest islands, as SceneView has it.
+std::map<std::uint64_t, glm::vec3> key_directions(const world::World& world, const LitIslands& lit,
+                                                  world::WorldPos camera, double time_s,
+                                                  const render::Celestial& sky) {
+  std::vector<std::pair<double, std::uint64_t>> nearest;
+  for (const auto& [id, island] : lit) {
+    if (island.chunks.empty() || island.level != 0) continue;
+    const double centre =
+        glm::length(world::difference_blocks(camera, world.pose(id, time_s)->origin));
+    const double distance = std::max(0.0, centre - world.island(id)->bounding_radius);
+    if (distance <= game::kKeyedWithin) nearest.emplace_back(distance, id);
+  }
+  std::ranges::sort(nearest);
+  nearest.resize(std::min(nearest.size(), game::kMostKeyed));
+  std::map<std::uint64_t, glm::vec3> out;
+  for (const auto& [distance, id] : nearest)
+    if (const auto to_body = game::key_direction(sky, world.pose(id, time_s)->rotation))
+      out[id] = *to_body;
+  return out;
 }
 
 }  // namespace
@@ -203,21 +248,26 @@ Result<StoredLight> StoredLight::find(const game::SceneOptions& options,
   Jobs jobs(static_cast<int>(options.settings.jobs_threads));
   const LitIslands lit = chunks_in_view(world, options, camera, jobs);
   const bool full = options.settings.render.indirect == render::Indirect::kFull;
+  const render::Celestial sky =
+      render::sky_without(render::celestial_at(options.time_of_day_s, options.settings.moon_phase),
+                          options.settings.render.leave_out);
+  std::map<std::uint64_t, glm::vec3> keys;
+  if (full && detail.keyed)
+    keys = key_directions(world, lit, camera, options.settings.world_time_s, sky);
   StoredLight out;
   out.detail_ = detail;
   std::atomic<double> seconds = 0.0;
   for (const auto& [id, island] : lit) {
     out.islands_[id].level = island.level;
-    if (!island.chunks.empty())
-      out.islands_[id].skies = look(island, full ? detail.bounces : 0, jobs, seconds);
+    if (island.chunks.empty()) continue;
+    world::KeyDirections from{};
+    if (const auto key = keys.find(id); key != keys.end()) from[0] = key->second;
+    out.islands_[id].skies = look(island, full ? detail.bounces : 0, from, jobs, seconds);
   }
   out.work_seconds_ = seconds;
-  const render::Celestial sky =
-      render::sky_without(render::celestial_at(options.time_of_day_s, options.settings.moon_phase),
-                          options.settings.render.leave_out);
   const double above = static_cast<double>(camera.y - world.origin().y) / 65536.0;
   const std::vector<render::IslandPlacement> placed =
-      placements(world, options.settings.world_time_s, lit);
+      placements(world, options.settings.world_time_s, lit, keys);
   out.sky_ = render::sky_irradiance(
       render::sky_model(sky, render::eye_height_km(above), nullptr, *panorama), sky, placed,
       std::vector<bool>(placed.size(), true), {camera.x, camera.y, camera.z});
@@ -248,7 +298,7 @@ std::optional<glm::dvec3> StoredLight::at(std::uint64_t id, glm::dvec3 place, in
       world::find_record(*in->second, {voxel.x & 63, voxel.y & 63, voxel.z & 63}, face);
   if (!at) return std::nullopt;
   const std::span<const glm::uvec4> record(
-      in->second->texels.begin() + static_cast<std::ptrdiff_t>(*at), in->second->record_texels);
+      in->second->texels.begin() + static_cast<std::ptrdiff_t>(*at), in->second->record_texels());
   const world::FaceAxes axes(face);
   const glm::dvec3 in_voxel = glm::clamp(place - glm::dvec3(voxel), 0.0, 1.0);
   const glm::dvec2 corner{in_voxel[axes.b], in_voxel[axes.c]};
@@ -257,11 +307,15 @@ std::optional<glm::dvec3> StoredLight::at(std::uint64_t id, glm::dvec3 place, in
                 sky.subspan(static_cast<std::size_t>(face) * shared::kIndirectSkyTexels,
                             shared::kIndirectSkyTexels),
                 face / 2, corner, detail_.lobes);
-  const glm::dvec3 tint = in->second->tinted()
-                              ? colour_between(record[shared::kIndirectRecordTexels], corner)
-                              : glm::dvec3(1.0);
-  return open_sky * tint + colour_between(record[2], corner) +
-         bounced_light(record[3], sky.subspan(shared::kIndirectHarmonics), corner, detail_.degree);
+  const world::RecordParts& parts = in->second->parts;
+  const glm::dvec3 tint =
+      parts.tinted ? colour_between(record[parts.before_tint()], corner) : glm::dvec3(1.0);
+  glm::dvec3 bounced =
+      bounced_light(record[3], sky.subspan(shared::kIndirectHarmonics), corner, detail_.degree);
+  if (parts.keyed)
+    bounced += keyed_light(record[shared::kIndirectRecordTexels],
+                           sky.subspan(shared::kIndirectKeys), corner);
+  return open_sky * tint + colour_between(record[2], corner) + bounced;
 }
 
 std::size_t StoredLight::bytes() const {

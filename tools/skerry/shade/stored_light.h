@@ -19,6 +19,7 @@ struct LightDetail {
   int bounces = world::BounceLight::kBounces;  ///< reflections that are followed, from 0
   bool lobes = true;  ///< shares of the sky by lobe; else one share for all of a face's sky
   int degree = 2;     ///< of the harmonics that reflected light is kept in, 0 to 2
+  bool keyed = true;  ///< on the nearest islands, sun and moon are followed as they are
   bool operator==(const LightDetail&) const = default;
 };
 

@@ -17,7 +17,7 @@
 #include "engine/render/sky/sky_irradiance.h"
 #include "tools/skerry/stability/case.h"
 #include "tools/skerry/stability/stage.h"
-#include "world/light/shared_exponent.h"
+#include "world/light/base/shared_exponent.h"
 #include "world/light/sky_transfer.h"
 #include "world/voxel/blocks.h"
 

@@ -1,4 +1,4 @@
-#include "game/view/level_blends.h"
+#include "game/sections/level_blends.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "game/view/section_record.h"
+#include "game/sections/section_record.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "world/light/sky_rays.h"
+#include "world/light/base/sky_rays.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,192 @@
+// From which directions reflected light of sun and moon is shown, over time.
+#include "game/view/key_fades.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "engine/gpu/transfer/readback.h"
+#include "game/view/scene_view.h"
+#include "tests/gpu/test_device.h"
+#include "world/islands/march.h"
+
+namespace skerry::game {
+namespace {
+
+const world::IslandLevel kRow{7}, kOther{8};
+const glm::vec3 kEast{1.0f, 0.0f, 0.0f}, kUp{0.0f, 1.0f, 0.0f}, kSouth{0.0f, 0.0f, 1.0f};
+
+float sum_of(const std::array<render::KeyedBody, 2>& keyed) {
+  return keyed[0].weight + keyed[1].weight;
+}
+
+TEST(KeyFades, TheFirstLightOfAnIslandIsThereAtOnce) {
+  KeyFades fades;
+  EXPECT_EQ(fades.unused(kRow), 0u);
+  fades.show(kRow, {kEast, std::nullopt});
+  EXPECT_EQ(fades.of(kRow)[0].weight, 1.0f);
+  EXPECT_EQ(fades.of(kRow)[0].direction, kEast);
+  EXPECT_EQ(fades.shown(kRow), kEast);
+  EXPECT_EQ(sum_of(fades.of(kOther)), 0.0f);
+}
+
+TEST(KeyFades, OneDirectionFadesIntoTheNext) {
+  KeyFades fades;
+  fades.show(kRow, {kEast, std::nullopt});
+  world::KeyDirections keys{kEast, std::nullopt};
+  for (const glm::vec3& next : {kUp, kSouth, kEast}) {
+    const std::optional<std::size_t> slot = fades.unused(kRow);
+    ASSERT_TRUE(slot);
+    EXPECT_EQ(fades.of(kRow)[*slot].weight, 0.0f);  // nobody sees it being replaced
+    keys[*slot] = next;
+    fades.show(kRow, keys);
+    EXPECT_EQ(fades.of(kRow)[*slot].weight, 0.0f);
+    EXPECT_FALSE(fades.unused(kRow));
+    float before = 0.0f;
+    int frames = 0;
+    for (; !fades.unused(kRow); ++frames) {
+      fades.advance();
+      EXPECT_FLOAT_EQ(sum_of(fades.of(kRow)), 1.0f);
+      EXPECT_GT(fades.of(kRow)[*slot].weight, before);
+      EXPECT_LE(fades.of(kRow)[*slot].weight - before, 0.05f);
+      before = fades.of(kRow)[*slot].weight;
+      ASSERT_LT(frames, 100);
+    }
+    EXPECT_EQ(fades.of(kRow)[*slot].weight, 1.0f);
+    EXPECT_EQ(fades.shown(kRow), next);
+  }
+}
+
+TEST(KeyFades, LightThatHadNoDirectionFadesIn) {
+  KeyFades fades;
+  fades.show(kRow, {});
+  EXPECT_EQ(sum_of(fades.of(kRow)), 0.0f);
+  fades.show(kRow, {kUp, std::nullopt});
+  EXPECT_EQ(sum_of(fades.of(kRow)), 0.0f);
+  fades.advance();
+  EXPECT_GT(sum_of(fades.of(kRow)), 0.0f);
+  EXPECT_LT(sum_of(fades.of(kRow)), 0.1f);
+}
+
+TEST(KeyFades, APictureThatStandsStillShowsNoFade) {
+  KeyFades fades;
+  fades.show(kRow, {kEast, std::nullopt});
+  fades.show(kOther, {kEast, std::nullopt});
+  fades.show(kRow, {kEast, kUp});
+  fades.advance();
+  fades.finish({kRow});
+  EXPECT_EQ(fades.of(kRow)[0].weight, 0.0f);
+  EXPECT_EQ(fades.of(kRow)[1].weight, 1.0f);
+  EXPECT_EQ(sum_of(fades.of(kOther)), 0.0f);
+}
+
+TEST(KeyFades, TheBrighterBodyIsFollowedAboutTheIslandsAxes) {
+  const glm::dquat turned = glm::angleAxis(0.8, glm::normalize(glm::dvec3(0.1, 1.0, 0.0)));
+  const render::Celestial noon = render::celestial_at(43200.0, 0.5),
+                          night = render::celestial_at(0.0, 0.5),
+                          new_moon = render::celestial_at(0.0, 0.0);
+  const auto toward = [&](const render::Celestial& sky) {
+    return glm::dvec3(turned * glm::dvec3(*key_direction(sky, turned)));
+  };
+  EXPECT_LT(glm::length(toward(noon) - noon.to_sun), 1e-6);
+  EXPECT_LT(glm::length(toward(night) - night.to_moon), 1e-6);
+  EXPECT_FALSE(key_direction(new_moon, turned));
+}
+
+constexpr VkExtent2D kSize{160, 90};
+
+class KeyedFrames : public gpu::GpuTest {
+ protected:
+  using Picture = std::vector<std::byte>;
+  std::unique_ptr<SceneView> open() {
+    SceneOptions options;
+    options.seed_text = "1";
+    options.settings.view_distance = 128;
+    options.settings.exposure_ev = 8.0;
+    Result<std::unique_ptr<SceneView>> made = SceneView::create(device(), options);
+    EXPECT_TRUE(made) << made.error().message;
+    add_roof(**made);
+    return *std::move(made);
+  }
+  /// Over the camera: below it, most of the light is what the ground about it reflects.
+  static void add_roof(SceneView& view) {
+    const render::FixedPos& eye = view.start_camera().position;
+    const world::WorldPos at{eye[0], eye[1], eye[2]};
+    const std::uint64_t id = view.world().islands_near(at, 100.0, 0.0).front().id;
+    const world::Pose pose = *view.world().pose(id, 0.0);
+    const glm::dvec3 place =
+        glm::inverse(pose.rotation) * world::difference_blocks(at, pose.origin);
+    const world::IVec3 over{world::floor_to_int(place.x), world::floor_to_int(place.y) + 2,
+                            world::floor_to_int(place.z)};
+    for (int x = -8; x <= 8; ++x)
+      for (int z = -8; z <= 8; ++z)
+        EXPECT_TRUE(
+            view.world().set_block(id, {over.x + x, over.y, over.z + z}, world::block::kStone));
+  }
+  static SceneView::Moment moment(SceneView& view, double hour) {
+    SceneView::Moment out;
+    out.camera = view.start_camera();
+    out.camera.pitch_deg = -35.0;
+    out.time_of_day_s = hour * 3600.0;
+    return out;
+  }
+  Picture draw(SceneView& view, const SceneView::Moment& moment) {
+    EXPECT_TRUE(view.draw(moment, kSize));
+    view.renderer().finish();
+    auto picture = gpu::read_back(device(), view.renderer().picture(), 4);
+    EXPECT_TRUE(picture);
+    return *std::move(picture);
+  }
+  /// But for what the sky's tables differ by, which depend on when they were made.
+  static bool alike(const Picture& a, const Picture& b) {
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const int by = std::to_integer<int>(a[i]) - std::to_integer<int>(b[i]);
+      if (by < -2 || by > 2) return false;
+      differ += by != 0 ? 1 : 0;
+    }
+    return differ < 64;
+  }
+  Picture loaded(SceneView& view, double hour) {
+    EXPECT_TRUE(view.load_completely(moment(view, hour)));
+    return draw(view, moment(view, hour));
+  }
+};
+
+TEST_F(KeyedFrames, AreTheSameWhateverTheSunHasBeenFollowedFromBefore) {
+  const auto fresh = open(), old = open();
+  const Picture right = loaded(*fresh, 10.0);
+  for (const double hour : {9.0, 9.8, 15.0, 0.0})
+    EXPECT_FALSE(alike(loaded(*old, hour), right)) << hour;
+  EXPECT_TRUE(alike(loaded(*old, 10.0), right));
+}
+
+// Streams as a game does, while the clock runs and once it rests.
+TEST_F(KeyedFrames, InPlayComeToWhereTheSunRests) {
+  const auto fresh = open(), played = open();
+  const Picture right = loaded(*fresh, 10.0);
+  EXPECT_FALSE(alike(loaded(*played, 9.0), right));
+  EXPECT_FALSE(alike(draw(*played, moment(*played, 10.0)), right));  // from where the sun stood
+  for (double hour = 9.0; hour < 10.0; hour += 1.0 / 64.0)
+    ASSERT_TRUE(played->stream(moment(*played, hour)));
+  bool same = false;
+  for (int tries = 0; tries < 40 && !same; ++tries) {
+    for (int i = 0; i < 128; ++i) {
+      ASSERT_TRUE(played->stream(moment(*played, 10.0)));
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    same = alike(draw(*played, moment(*played, 10.0)), right);
+  }
+  EXPECT_TRUE(same);
+}
+
+}  // namespace
+}  // namespace skerry::game
