@@ -3,6 +3,8 @@
 // As classify_tiles.comp, for shading: tiles with surfaces (list 0) and with open pixels (1), and of the latter those in which a star or a disc may
 // be seen (3, and then not in 1). Where radiance is kept beside the picture for water and glass, tiles that keep it are in lists of their own (4, 5,
 // 6), since what is stored for no pixel takes lavapipe as long as what is stored for all; none keep it while no water or glass shows.
+// Where that is asked for, tiles of smooth sky alone are in lists 7 and 8, not in 1 and 5; and of tiles with surfaces the squares of 4x4 pixels are
+// listed: those of one plane of one block, and others with a surface.
 // docs/decisions/0030-light-at-fewer-pixels.md, docs/decisions/0047-the-picture-as-it-is-shaded.md.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
@@ -22,9 +24,12 @@ layout(scalar, binding = kLayerTilesBinding) readonly buffer Layers { TileDispat
 layout(constant_id = kTranslucentConstant) const bool kTranslucent = false;  // if not, something is bound in place of the layers
 layout(constant_id = kStarsConstant) const bool kStars = false;              // whether they are looked for
 layout(constant_id = kDiscsConstant) const bool kDiscs = false;
+layout(constant_id = kSquaresConstant) const bool kSquares = false;
+layout(constant_id = kSmoothSkyConstant) const bool kSmoothSky = false;
 
 #include "include/sky/star_cells.glsl"
 
+const float kSmoothPixels = 10.0;  // from the horizon
 const float kMostCells = 4.0;  // across a tile; where it covers more, some have stars
 
 // Rays through a tile's outermost pixels.
@@ -72,31 +77,97 @@ bool may_touch(Corners at, float pixel_angle, vec3 to_body) {
   return distance(middle, to_body) < 1.1 * (kDiscRadius + 1.5 * pixel_angle + half_tile);
 }
 
+// Whether all of a tile lies so far above the horizon, or below, that the sky hardly bends between a square's corners.
+bool far_from_horizon(Corners at, float pixel_angle) {
+  vec4 up = vec4(normalize(at.a).y, normalize(at.b).y, normalize(at.c).y, normalize(at.d).y) - sin(frame.sky_horizon);
+  float margin = kSmoothPixels * pixel_angle;
+  return all(greaterThan(up, vec4(margin))) || all(lessThan(up, vec4(-margin)));
+}
+
+// Reverse depth is affine in the picture on a plane: how far it may be off, of the change from one pixel to the next and of itself. Planes of blocks
+// that lie one behind the other differ by more than a thousandth of it wherever single blocks can be told apart.
+const float kOffPlane = 0.05, kOffDepth = 1e-5;
+
+// What a square shows.
+struct Square {
+  bool covered, open;
+  bool plain;  // one plane of one block
+};
+
+Square square_at(uvec2 corner) {
+  Square s = Square(false, false, all(lessThanEqual(corner + kSquareEdge, frame.size)));
+  uint first = 0u;
+  vec3 plane = vec3(0.0);  // its depth at the corner, and what is added for a pixel beside and below
+  for (uint i = 0u; i < kSquareEdge * kSquareEdge; ++i) {
+    uvec2 at = uvec2(i % kSquareEdge, i / kSquareEdge);
+    ivec2 pixel = ivec2(min(corner + at, frame.size - 1u));
+    uint word = imageLoad(surfaces, pixel).r;
+    float depth = texelFetch(depths, pixel, 0).r;
+    bool here = is_covered(word, depth);
+    s.covered = s.covered || here;
+    s.open = s.open || !here;
+    if (!kSquares) continue;
+    if (i == 0u) first = word;
+    if (i == 0u) plane.x = depth;
+    if (i == 1u) plane.y = depth - plane.x;
+    if (i == kSquareEdge) plane.z = depth - plane.x;
+    float off = abs(depth - plane.x - dot(plane.yz, vec2(at)));
+    bool says_how = i < 2u || i == kSquareEdge;  // the plane lies
+    s.plain = s.plain && here && word == first && (says_how || off <= kOffPlane * (abs(plane.y) + abs(plane.z)) + kOffDepth * depth);
+  }
+  s.plain = s.plain && surface_face(first) < 6u;
+  return s;
+}
+
+// Squares of a tile, a bit each.
+void list_squares(const uint kind, bool keeps, uint squares, uvec2 tile, uvec2 count) {
+  const uint across = kTileEdge / kSquareEdge, group = kind == kPlainSquares ? kPlainGroup : kMixedGroup / kSquareEdge;
+  uint list = keeps ? kind + 1u : kind;
+  uint more = uint(bitCount(squares)), slot = atomicAdd(dispatches[list].tiles, more), groups = (slot + more + group - 1u) / group;
+  atomicMax(dispatches[list].groups_x, min(groups, kTileRow));
+  atomicMax(dispatches[list].groups_y, (groups + kTileRow - 1u) / kTileRow);
+  uint room = across * across * count.x * count.y, begin = kTileKinds * count.x * count.y + (keeps ? room : 0u), last = begin + room - 1u;
+  for (uint left = squares; left != 0u; left &= left - 1u) {
+    uint i = uint(findLSB(left));
+    uvec2 at = tile * across + uvec2(i % across, i / across);
+    tiles[kind == kPlainSquares ? begin + slot : last - slot] = at.x | (at.y << 16);
+    ++slot;
+  }
+}
+
 void main() {
   uvec2 count = (frame.size + (kTileEdge - 1u)) / kTileEdge;
   uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   if (tile >= count.x * count.y) return;
   uvec2 at = uvec2(tile % count.x, tile / count.x), low = at * kTileEdge;
+  const uint across = kTileEdge / kSquareEdge;
   bool covered = false, open = false;
-  for (uint y = 0u; y < kTileEdge; ++y) {
-    for (uint x = 0u; x < kTileEdge; ++x) {
-      ivec2 pixel = ivec2(min(low + uvec2(x, y), frame.size - 1u));
-      bool here = is_covered(imageLoad(surfaces, pixel).r, texelFetch(depths, pixel, 0).r);
-      covered = covered || here;
-      open = open || !here;
-    }
+  uint plain = 0u, mixed = 0u;
+  for (uint i = 0u; i < across * across; ++i) {
+    uvec2 corner = low + uvec2(i % across, i / across) * kSquareEdge;
+    Square s = square_at(corner);
+    covered = covered || s.covered;
+    open = open || s.open;
+    plain |= s.plain ? 1u << i : 0u;
+    mixed |= s.covered && !s.plain && all(lessThan(corner, frame.size)) ? 1u << i : 0u;
   }
   bool keeps = kTranslucent && (layers[0].tiles != 0u || frame.camera_medium != 0u) && all(lessThan(low, frame.radiance_area.zw)) &&
                all(greaterThan(low + kTileEdge, frame.radiance_area.xy));
-  bool detailed = false;
-  if (kStars || kDiscs) {
+  bool detailed = false, smooth_sky = false;
+  if (kStars || kDiscs || kSmoothSky) {
     Corners corners = corners_of(low);
     float pixel_angle = frame.pixel_to_ndc.y * length(frame.ray_up);
+    if (kSmoothSky) smooth_sky = !covered && all(lessThanEqual(low + kTileEdge, frame.size)) && far_from_horizon(corners, pixel_angle);
     if (kStars) detailed = may_show_star(corners, pixel_angle);
     if (kDiscs) detailed = detailed || may_touch(corners, pixel_angle, sky.sun.to_body) || may_touch(corners, pixel_angle, sky.moon.to_body);
   }
   uint first = keeps ? 4u : 0u;
   if (covered) list_tile(first, at, count);
-  if (open && !detailed) list_tile(first + 1u, at, count);
+  if (kSquares && covered) {
+    list_squares(kPlainSquares, keeps, plain, at, count);
+    list_squares(kMixedSquares, keeps, mixed, at, count);
+  }
+  if (open && !detailed && !smooth_sky) list_tile(first + 1u, at, count);
+  if (open && !detailed && smooth_sky) list_tile_of(keeps ? kSmoothSkyTiles + 1u : kSmoothSkyTiles, at, count, kSmoothSkyGroup);
   if (open && detailed) list_tile(keeps ? 6u : 3u, at, count);
 }

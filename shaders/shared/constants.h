@@ -74,6 +74,8 @@ SHARED_CONST uint kFoamConstant = 69u;         // bool: water has foam along opa
 SHARED_CONST uint kBlendedConstant = 70u;      // bool: some sections are drawn in some pixels alone
 SHARED_CONST uint kColumnsConstant = 71u;      // bool: columns of texels, without shared memory
 SHARED_CONST uint kListedConstant = 72u;       // bool: tiles are listed
+SHARED_CONST uint kSquaresConstant = 73u;      // bool: squares of 4x4 pixels are listed
+SHARED_CONST uint kSmoothSkyConstant = 74u;    // bool: tiles of a smooth sky are listed
 
 SHARED_CONST uint kCullSections = 0u;
 SHARED_CONST uint kCullScan = 1u;
@@ -91,6 +93,18 @@ SHARED_CONST uint kLightBins = 2u;
 SHARED_CONST uint kLightLists = 3u;
 SHARED_CONST uint kLightRoom = 4u;
 SHARED_CONST uint kLightTiles = 5u;
+
+// Of render::TileKind: tiles of a smooth sky, and of a work group; kinds of squares whose light is
+// that of a grid's points, pixels of an edge, and invocations of a work group for each kind. Each
+// is followed by the same kind of what keeps radiance.
+SHARED_CONST uint kSmoothSkyTiles = 7u;
+SHARED_CONST uint kSmoothSkyGroup = 64u;
+SHARED_CONST uint kPlainSquares = 9u;
+SHARED_CONST uint kMixedSquares = 11u;
+SHARED_CONST uint kTileKinds = 9u;  // that are no squares
+SHARED_CONST uint kSquareEdge = 4u;
+SHARED_CONST uint kPlainGroup = 64u;  // one a square
+SHARED_CONST uint kMixedGroup = 16u;  // one a row of a square
 
 // Rays that level water bends: those of an eye in the air, or in the water.
 SHARED_CONST uint kBentIntoWater = 1u;

@@ -330,6 +330,6 @@ MUTANTS = (
     Mutant("dither_missing", "dark gradients band", "shaders/include/post/tonemap.glsl", "(noise - 0.5) / 255.0", "0.0",
            "stars empty"),
     Mutant("tile_missing", "the last tile of each list is not shaded", "shaders/include/scene/tiles.glsl",
-           "bool here = slot < dispatches[push.kind].tiles;", "bool here = slot + 1u < dispatches[push.kind].tiles;",
+           "return slot < dispatches[push.kind].tiles;", "return slot + 1u < dispatches[push.kind].tiles;",
            "day mesa"),
 )

@@ -43,15 +43,17 @@ void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uin
 Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles) {
   Tiles out;
   out.dispatches = graph.create(gpu::BufferDesc{
-      "tile dispatches", kTileKinds * sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
-  out.lists = graph.create(
-      gpu::BufferDesc{"tile lists", std::uint64_t{kTileKinds} * tiles * sizeof(std::uint32_t), 0,
-                      gpu::Memory::kDevice});
+      "tile dispatches", kListKinds * sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
+  constexpr std::uint32_t kAcross = shared::kTileEdge / shared::kSquareEdge;
+  out.lists = graph.create(gpu::BufferDesc{
+      "tile lists",
+      std::uint64_t{shared::kTileKinds + 2 * kAcross * kAcross} * tiles * sizeof(std::uint32_t), 0,
+      gpu::Memory::kDevice});
   graph.add_pass(
       clear_name,
       [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
       [dispatches = out.dispatches](gpu::Commands& c) {
-        for (std::uint64_t kind = 0; kind < kTileKinds; ++kind)
+        for (std::uint64_t kind = 0; kind < kListKinds; ++kind)
           clear_dispatch(c, dispatches, kind * sizeof(shared::TileDispatch));
       });
   return out;

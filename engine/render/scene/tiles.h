@@ -6,6 +6,7 @@
 #include "engine/gpu/graph/frame_graph.h"
 #include "engine/render/frame/scene_refs.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/constants.h"
 
 namespace skerry::render {
 
@@ -21,6 +22,11 @@ void dispatch_items(gpu::Commands& commands, std::uint32_t items);
 /// kDetailed: open pixels that may show a star or a disc; where that is looked for, kOpen is the
 /// others. kKept...: whose radiance is kept; where that is told apart, the first three are the
 /// others.
+/// kSmoothSky: open pixels alone, without detail and far from the horizon; where that is looked
+/// for, kOpen is the others.
+/// kPlainSquares and kMixedSquares: squares of kSquareEdge pixels of tiles in kCovered, where they
+/// are looked for, kept... such of tiles in kKeptCovered. Plain ones show one plane of one block;
+/// mixed are the others with a surface.
 enum class TileKind : std::uint32_t {
   kCovered = 0,
   kOpen = 1,
@@ -28,15 +34,24 @@ enum class TileKind : std::uint32_t {
   kDetailed = 3,
   kKeptCovered = 4,
   kKeptOpen = 5,
-  kKeptDetailed = 6
+  kKeptDetailed = 6,
+  kSmoothSky = shared::kSmoothSkyTiles,
+  kKeptSmoothSky,
+  kPlainSquares = shared::kPlainSquares,
+  kKeptPlainSquares,
+  kMixedSquares = shared::kMixedSquares,
+  kKeptMixedSquares
 };
-constexpr std::uint32_t kTileKinds = 7;
+constexpr std::uint32_t kListKinds = 13;
 
 /// 8x8-pixel tiles by what they show, as indirect dispatches of one work group a tile. A tile may
 /// be of several kinds.
 struct Tiles {
   gpu::BufferRef dispatches;  ///< shared::TileDispatch[kind]
-  gpu::BufferRef lists;       ///< uint[kind][tile]
+  gpu::BufferRef lists;       ///< uint[kind][tile], then uint[2][square], of those that keep
+                              ///< radiance last: plain from the beginning, mixed from the end
+  bool squares = false;       ///< whether they are looked for
+  bool smooth_sky = false;    ///< whether tiles of it are
 
   /// What tiles.glsl declares.
   auto bindings(TileKind kind) const {

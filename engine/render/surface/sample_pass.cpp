@@ -46,11 +46,11 @@ constexpr VkExtent2D points(VkExtent2D size, std::uint32_t step) {
 }
 
 std::vector<gpu::SpecConstant> choosing_constants(const SamplePass& pass, const SampleIn& on,
-                                                  const SampledLight& light) {
+                                                  const SampledLight& light, bool squares) {
   const RenderSettings& settings = light.settings;
   std::vector<gpu::SpecConstant> constants{{shared::kStepConstant, pass.step}};
+  if (squares) constants.push_back({shared::kSquaresConstant, 1});
   if (pass.every_pixel) {
-    constants.push_back({shared::kEveryPixelConstant, 1});
     constants.push_back(
         {shared::kTextureTapsConstant, static_cast<std::uint32_t>(settings.texture_taps)});
     constants.push_back(
@@ -93,16 +93,51 @@ void add_sizing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRe
       });
 }
 
+/// Lists the grid's points that show a surface.
+void add_points(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                const SampleIn& on, const SampledLight& light, SamplePass& pass) {
+  const SurfaceReads surfaces(on.geometry);
+  const ClusteredLights lights = light.lights ? *light.lights : ClusteredLights::none(scene);
+  graph.add_pass(
+      pass.name("choose_samples_"),
+      [&](gpu::PassBuilder& b) {
+        b.read(scene.frame, Use::kComputeRead);
+        surfaces.declare(b);
+        lights.declare_counts(b);
+        pass.samples = b.write(pass.samples, Use::kComputeWrite);
+        pass.listed = b.write(pass.listed, Use::kComputeWrite);
+      },
+      [scene, surfaces, pass, lights,
+       program = gpu::compute(pipelines, programs::kListPoints,
+                              choosing_constants(pass, on, light, false))](gpu::Commands& c) {
+        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+                  gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+                  gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+                  gpu::storage<shared::kSamplesBinding>(pass.samples),
+                  gpu::storage<shared::kListedPixelsBinding>(pass.listed), lights.count_bindings());
+        const VkExtent2D size = points(scene.size, pass.step);
+        c.dispatch(gpu::Commands::groups(size.width, shared::kChooseGroup), size.height, 1);
+      });
+}
+
 /// Lists the pixels that need light of their own; the others get it at once.
 void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                   const SampleIn& on, const SampledLight& light, SamplePass& pass) {
   const SurfaceReads surfaces(on.geometry);
   const ClusteredLights lights = light.lights ? *light.lights : ClusteredLights::none(scene);
-  auto programs = programs_of(pass.into, TileKind::kCovered, [&](bool keep) {
-    return gpu::compute(pipelines, programs::kChooseSamples,
-                        pass.into.with_output(choosing_constants(pass, on, light), scene, keep));
-  });
-  if (!pass.every_pixel) programs.resize(1);  // it puts no pixel
+  const bool squares = on.tiles.squares;
+  const auto program = [&](const auto& shader) {
+    return [&](bool keep) {
+      return gpu::compute(
+          pipelines, shader,
+          pass.into.with_output(choosing_constants(pass, on, light, squares), scene, keep));
+    };
+  };
+  auto programs = programs_of(pass.into, squares ? TileKind::kMixedSquares : TileKind::kCovered,
+                              program(programs::kChooseSamples));
+  auto plain =
+      programs_of(pass.into, TileKind::kPlainSquares, program(programs::kLightPlainSquares));
+  if (!squares) plain.clear();
   graph.add_pass(
       pass.name("choose_samples_"),
       [&](gpu::PassBuilder& b) {
@@ -110,32 +145,35 @@ void add_choosing(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& 
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
         b.read(scene.block_textures, Use::kComputeSampled);
-        pass.declare_samples(b);
+        b.read(pass.samples, Use::kComputeRead);
         declare_tiles(b, on.tiles);
         lights.declare_counts(b);
         pass.listed = b.write(pass.listed, Use::kComputeWrite);
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         pass.into.declare(b, scene);
       },
-      [scene, surfaces, pass, lights, tiles = on.tiles,
+      [scene, surfaces, pass, lights, tiles = on.tiles, plain = std::move(plain),
        programs = std::move(programs)](gpu::Commands& c) {
-        for (const auto& some : programs) {
-          gpu::bind(c, some.second, gpu::storage<shared::kFrameBinding>(scene.frame),
-                    gpu::texels<shared::kIslandsBinding>(scene.islands),
-                    gpu::storage<shared::kMaterialsBinding>(scene.materials),
-                    gpu::storage<shared::kSurfacesBinding>(surfaces.words),
-                    gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
-                    gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures,
-                                                                scene.block_sampler),
-                    gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
-                    pass.into.bindings(scene), gpu::storage<shared::kSamplesBinding>(pass.samples),
-                    gpu::storage<shared::kListedPixelsBinding>(pass.listed),
-                    lights.count_bindings(), tiles.bindings(some.first));
-          if (pass.every_pixel) dispatch_tiles(c, tiles, some.first);
+        const std::tuple bindings{
+            gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::texels<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+            gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+            pass.into.bindings(scene),
+            gpu::storage<shared::kSamplesBinding>(pass.samples),
+            gpu::storage<shared::kListedPixelsBinding>(pass.listed),
+            lights.count_bindings()};
+        for (const auto& some : plain) {
+          gpu::bind(c, some.second, bindings, tiles.bindings(some.first));
+          dispatch_tiles(c, tiles, some.first);
         }
-        if (pass.every_pixel) return;
-        const VkExtent2D size = points(scene.size, pass.step);
-        c.dispatch(gpu::Commands::groups(size.width, shared::kChooseGroup), size.height, 1);
+        for (const auto& some : programs) {
+          gpu::bind(c, some.second, bindings, tiles.bindings(some.first));
+          dispatch_tiles(c, tiles, some.first);
+        }
       });
 }
 
@@ -250,7 +288,10 @@ void add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneR
         gpu::BufferDesc{"sample list", kDispatches + std::uint64_t{size.width} * size.height * 4, 0,
                         gpu::Memory::kDevice});
     add_clear(graph, pass);
-    add_choosing(graph, pipelines, scene, on, light, pass);
+    if (every_pixel)
+      add_choosing(graph, pipelines, scene, on, light, pass);
+    else
+      add_points(graph, pipelines, scene, on, light, pass);
     add_sizing(graph, pipelines, scene, pass);
     add_shading(graph, pipelines, scene, on, light, pass);
   }

@@ -93,20 +93,30 @@ Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
   return out;
 }
 
-/// As classify_tiles(), with kDetailed if that is looked for, and with kKept... if there are
-/// `layer_tiles`, dispatches of those that show water or glass.
+/// Whether squares are told apart that one light's four points are found for at once.
+bool looks_for_squares(const ShadeIn& in) {
+  return in.sampled && in.sampled->rate == shared::kSquareEdge &&
+         in.sampled->settings.shading_tolerance > 0.0f;
+}
+
+/// As classify_tiles(), with kDetailed and with squares if they are looked for, and with kKept...
+/// if there are `layer_tiles`, dispatches of those that show water or glass.
 Tiles classify_shaded_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene, const ShadeIn& in, const Geometry& geometry,
                             gpu::BufferRef layer_tiles) {
   const std::uint32_t tiles = tile_count(scene.size);
   Tiles out = create_tiles(graph, "classify_tiles_clear", tiles);
+  out.squares = looks_for_squares(in);
+  out.smooth_sky = sky_may_differ(scene, in);
   const SurfaceReads surfaces(geometry);
   const bool detail = looks_for_detail(scene, in);
   // In place of what is then never read.
   const gpu::BufferRef layers = layer_tiles ? layer_tiles : scene.frame;
   std::vector<gpu::SpecConstant> constants{{shared::kTranslucentConstant, layer_tiles ? 1u : 0u},
                                            {shared::kStarsConstant, detail && in.stars ? 1u : 0u},
-                                           {shared::kDiscsConstant, detail && in.discs ? 1u : 0u}};
+                                           {shared::kDiscsConstant, detail && in.discs ? 1u : 0u},
+                                           {shared::kSquaresConstant, out.squares ? 1u : 0u},
+                                           {shared::kSmoothSkyConstant, out.smooth_sky ? 1u : 0u}};
   graph.add_pass(
       "classify_tiles",
       [&](gpu::PassBuilder& b) {
@@ -217,6 +227,10 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
   if (apart)
     for (auto& some : programs_of(into, TileKind::kDetailed, make(true)))
       sky.push_back(std::move(some));
+  auto smooth = programs_of(into, TileKind::kSmoothSky, [&](bool keep) {
+    return gpu::compute(pipelines, programs::kShadeSmoothSky, into.with_output({}, scene, keep));
+  });
+  if (!tiles.smooth_sky) smooth.clear();
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {
@@ -227,7 +241,15 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         into.declare(b, scene);
       },
-      [sky = std::move(sky), scene, tiles, surfaces, into](gpu::Commands& c) {
+      [sky = std::move(sky), smooth = std::move(smooth), scene, tiles, surfaces,
+       into](gpu::Commands& c) {
+        for (const auto& some : smooth) {
+          gpu::bind(c, some.second, gpu::storage<shared::kFrameBinding>(scene.frame),
+                    gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
+                    gpu::sampled<shared::kSkyTableBinding>(scene.sky_lut, scene.sky_sampler),
+                    into.bindings(scene), tiles.bindings(some.first));
+          dispatch_tiles(c, tiles, some.first);
+        }
         for (const auto& some : sky) {
           gpu::bind(c, some.second, gpu::storage<shared::kFrameBinding>(scene.frame),
                     gpu::storage<shared::kSkyBinding>(scene.sky),
@@ -248,7 +270,7 @@ void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
   if (!some_sunless && into.picture && into.radiance && from.layers.count != 0)
     into.layer_tiles = from.layers.tiles.dispatches;
   const Tiles tiles =
-      into.layer_tiles || looks_for_detail(scene, in)
+      into.layer_tiles || sky_may_differ(scene, in)
           ? classify_shaded_tiles(graph, pipelines, scene, in, from.geometry, into.layer_tiles)
       : some_sunless ? classify_lit_tiles(graph, pipelines, scene, from)
                      : classify_tiles(graph, pipelines, scene, "classify_tiles",

@@ -1,11 +1,34 @@
 #include "engine/render/surface/shade_target.h"
 
+#include "engine/core/check.h"
 #include "engine/render/surface/picture_constants.h"
 #include "shaders/shared/constants.h"
 
 namespace skerry::render {
 
 using gpu::Use;
+
+namespace {
+
+TileKind kept(TileKind kind) {
+  switch (kind) {
+    case TileKind::kCovered:
+      return TileKind::kKeptCovered;
+    case TileKind::kOpen:
+      return TileKind::kKeptOpen;
+    case TileKind::kSmoothSky:
+      return TileKind::kKeptSmoothSky;
+    case TileKind::kPlainSquares:
+      return TileKind::kKeptPlainSquares;
+    case TileKind::kMixedSquares:
+      return TileKind::kKeptMixedSquares;
+    default:
+      SKERRY_ASSERT(kind == TileKind::kDetailed);
+      return TileKind::kKeptDetailed;
+  }
+}
+
+}  // namespace
 
 void ShadeTarget::declare(gpu::PassBuilder& b, const SceneRefs& scene) {
   for (gpu::ImageRef* const image : {&radiance, &picture, &metered})
@@ -16,10 +39,7 @@ void ShadeTarget::declare(gpu::PassBuilder& b, const SceneRefs& scene) {
 std::vector<OutputTiles> ShadeTarget::tiles_of(TileKind kind) const {
   const bool keep{radiance};
   if (!layer_tiles) return {{kind, keep}};
-  const TileKind kept = kind == TileKind::kCovered ? TileKind::kKeptCovered
-                        : kind == TileKind::kOpen  ? TileKind::kKeptOpen
-                                                   : TileKind::kKeptDetailed;
-  return {{kind, false}, {kept, true}};
+  return {{kind, false}, {kept(kind), true}};
 }
 
 std::vector<gpu::SpecConstant> ShadeTarget::with_output(std::vector<gpu::SpecConstant> own,

@@ -30,7 +30,7 @@ struct ShadeTarget {
                                    ///< any no radiance is kept. Empty: it is not looked at
 
   void declare(gpu::PassBuilder& b, const SceneRefs& scene);
-  /// The lists of tiles that stand for all of a kind, kCovered, kOpen or kDetailed, as the frame's
+  /// The lists of tiles that stand for all of a kind that has a kept one, as the frame's
   /// tiles are sorted by `layer_tiles`; each asks for a program of its own.
   std::vector<OutputTiles> tiles_of(TileKind kind) const;
   /// A shader's own specialization constants and those of output.glsl. @param keep false: no

@@ -9,4 +9,7 @@ layout(constant_id = kDepth16Constant) const bool kDepth16 = false;  // depth wa
 // like the sky, and words are cleared.
 bool is_covered(uint word, float depth) { return kDepth16 ? word != 0u : depth > 0.0; }
 uint covered_word(uint word, float depth) { return is_covered(word, depth) ? word : 0u; }
+
+// Depth of a surface. What 16 bits round to 0 lies half a step before infinity.
+float surface_depth(float depth) { return kDepth16 ? max(depth, 0.5 / 65535.0) : depth; }
 #endif

@@ -2,18 +2,36 @@
 #ifndef SKERRY_TILES_GLSL
 #define SKERRY_TILES_GLSL
 #include "shared/bindings.h"
+#include "shared/constants.h"
 
 layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // x | y << 16
 layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[]; };
 layout(push_constant) uniform Push { uint kind; } push;  // of tiles: render::TileKind
 
+bool is_listed(uint slot) { return slot < dispatches[push.kind].tiles; }
+
 // @return false where there is no such tile; `first` is then the first pixel of some tile.
-bool listed_tile(out uvec2 first) {
+// @param slot in the list.
+bool tile_in(uint slot, out uvec2 first) {
   uvec2 count = (frame.size + 7u) / 8u;
-  uint slot = gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x;
-  bool here = slot < dispatches[push.kind].tiles;
+  bool here = is_listed(slot);
   uint tile = tiles[push.kind * count.x * count.y + (here ? slot : 0u)];
   first = uvec2(tile & 0xffffu, tile >> 16) * 8u;
+  return here;
+}
+
+// The tile of a work group.
+bool listed_tile(out uvec2 first) { return tile_in(gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x, first); }
+
+// Of squares in place of tiles. @param slot in the list.
+bool listed_square(uint slot, out uvec2 first) {
+  uvec2 count = (frame.size + 7u) / 8u;
+  uint room = count.x * count.y * (kTileEdge / kSquareEdge) * (kTileEdge / kSquareEdge);
+  bool keeps = ((push.kind - kPlainSquares) & 1u) != 0u;
+  uint begin = kTileKinds * count.x * count.y + (keeps ? room : 0u), last = begin + room - 1u;
+  bool here = is_listed(slot);
+  uint place = here ? slot : 0u, square = tiles[push.kind < kMixedSquares ? begin + place : last - place];
+  first = uvec2(square & 0xffffu, square >> 16) * kSquareEdge;
   return here;
 }
 

@@ -8,7 +8,6 @@ vec3 radiance_at(mat2x3 sent, vec3 albedo) { return sent[0] + albedo * (sent[1] 
 
 // What a sample lies on, to be told from other surfaces by the pixels around: 15 bits of what is lit alike (island, direction of the face, the
 // material but for its texture), whether it is a plant, and the distance along the view axis. 0: sky.
-const uint kNoSurface = 0u;
 
 uint mixed(uint hash, uint value) {
   hash = (hash ^ value) * 0x9e3779b1u;

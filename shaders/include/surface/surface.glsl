@@ -38,26 +38,44 @@ struct PlaneView {  // how a pixel sees a plane, in its island's lattice
   float t;  // blocks along the view axis
 };
 
-// Block texture at a point of a plane. The footprint is worked out from neighbouring rays, since compute has no derivatives; along its
-// long side it is covered by up to `max_taps` samples.
+// What a pixel covers of a texture: along its long side it is covered by some samples.
+struct Footprint {
+  vec2 major;  // along the long side [blocks]
+  float taps;
+  float lod;
+  vec2 texels;  // that the pixel is wide and high
+};
+
+// @param dx, dy texture coordinates to the pixels beside and above [blocks].
+Footprint footprint_of(vec2 dx, vec2 dy, uint max_taps) {
+  float x2 = dot(dx, dx), y2 = dot(dy, dy);
+  float major_texels = sqrt(max(x2, y2)) * kTextureEdge;
+  float minor_texels = max(abs(dx.x * dy.y - dx.y * dy.x) * kTextureEdge * kTextureEdge / max(major_texels, 1e-6), 1e-6);
+  float taps = clamp(ceil(major_texels / max(minor_texels, 1.0)), 1.0, float(max_taps));
+  float lod = log2(max(max(minor_texels, major_texels / taps), 1e-6));
+  return Footprint(x2 > y2 ? dx : dy, taps, lod, max(abs(dx) + abs(dy), 1e-7) * kTextureEdge);
+}
+
+vec4 footprint_texel(uint layer, vec2 uv, Footprint f) {
+  uv = crisp_uv(uv, f.texels);
+  vec4 sum = vec4(0.0);
+  for (float i = 0.0; i < f.taps; ++i)
+    sum += textureLod(block_textures, vec3(uv + f.major * ((i + 0.5) / f.taps - 0.5), float(layer)), f.lod);
+  return sum / f.taps;
+}
+
+// Block texture at a point of a plane. The footprint is worked out from neighbouring rays, since compute has no derivatives.
 vec4 plane_texel(uint layer, uint face, vec2 uv, PlaneView view, uint max_taps) {
   float facing = dot(view.normal, view.ray);
   facing = abs(facing) < 1e-6 ? 1e-6 : facing;
   // d(ray * t) along one pixel while staying on the plane.
   vec3 dx = view.t * (view.right - view.ray * (dot(view.normal, view.right) / facing));
   vec3 dy = view.t * (view.up - view.ray * (dot(view.normal, view.up) / facing));
-  vec2 uv_dx = face_uv(face, dx), uv_dy = face_uv(face, dy);
-  float x2 = dot(uv_dx, uv_dx), y2 = dot(uv_dy, uv_dy);
-  vec2 major = x2 > y2 ? uv_dx : uv_dy;
-  float major_texels = sqrt(max(x2, y2)) * kTextureEdge;
-  float minor_texels = max(abs(uv_dx.x * uv_dy.y - uv_dx.y * uv_dy.x) * kTextureEdge * kTextureEdge / max(major_texels, 1e-6), 1e-6);
-  float taps = clamp(ceil(major_texels / max(minor_texels, 1.0)), 1.0, float(max_taps));
-  float lod = log2(max(max(minor_texels, major_texels / taps), 1e-6));
-  uv = crisp_uv(uv, max(abs(uv_dx) + abs(uv_dy), 1e-7) * kTextureEdge);
-  vec4 sum = vec4(0.0);
-  for (float i = 0.0; i < taps; ++i)
-    sum += textureLod(block_textures, vec3(uv + major * ((i + 0.5) / taps - 0.5), float(layer)), lod);
-  return sum / taps;
+  return footprint_texel(layer, uv, footprint_of(face_uv(face, dx), face_uv(face, dy), max_taps));
+}
+
+uint face_layer(uint face, Material material) {
+  return face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
 }
 
 // Texture of the surface a word names, where the ray meets it `t` blocks along the view axis.
@@ -65,13 +83,12 @@ vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
   uint face = surface_face(word);
   IslandTransform island = island_at(surface_island(word));
   Material material = materials[surface_block(word)];
-  uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
   vec3 normal = face >= 6u ? vec3(0.70710678, 0.0, face == 6u ? -0.70710678 : 0.70710678) : face_normal(face);
   vec3 right = lattice_from_world_vector(island, frame.ray_right) * frame.texel_footprint.x;
   vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.texel_footprint.y;
   vec3 lattice = lattice_from_world(island, ray * t);
   vec2 uv = face >= 6u ? plant_uv(face_uv(face, place_in_voxel(lattice))) : face_uv(face, lattice);
-  return plane_texel(layer, face, uv, PlaneView(lattice_from_world_vector(island, ray), right, up, normal, t), max_taps);
+  return plane_texel(face_layer(face, material), face, uv, PlaneView(lattice_from_world_vector(island, ray), right, up, normal, t), max_taps);
 }
 
 #endif
@@ -85,9 +102,6 @@ float emission_of(uint word, vec3 albedo) {
 
 // Whether that depends on the albedo.
 bool emits_in_part(uint word) { return unpackHalf2x16(materials[surface_block(word)].emission).y > 0.0; }
-
-// Depth of a surface. What 16 bits round to 0 lies half a step before infinity.
-float surface_depth(float depth) { return kDepth16 ? max(depth, 0.5 / 65535.0) : depth; }
 
 // Without its albedo and what comes of that. @param pixel where the word is from. @param depth of the surface, greater than 0.
 Surface surface_without_texture(uint word, ivec2 pixel, float depth, vec3 ray) {
