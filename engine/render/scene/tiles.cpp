@@ -40,15 +40,16 @@ void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uin
   commands.fill(dispatches, offset + offsetof(shared::TileDispatch, tiles), 4, 0);
 }
 
-Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles) {
+Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles,
+                   bool squares) {
   Tiles out;
   out.dispatches = graph.create(gpu::BufferDesc{
       "tile dispatches", kListKinds * sizeof(shared::TileDispatch), 0, gpu::Memory::kDevice});
   constexpr std::uint32_t kAcross = shared::kTileEdge / shared::kSquareEdge;
-  out.lists = graph.create(gpu::BufferDesc{
-      "tile lists",
-      std::uint64_t{shared::kTileKinds + 2 * kAcross * kAcross} * tiles * sizeof(std::uint32_t), 0,
-      gpu::Memory::kDevice});
+  const std::uint64_t words = shared::kTileKinds + (squares ? 2 * kAcross * kAcross : 0);
+  out.lists = graph.create(gpu::BufferDesc{"tile lists", words * tiles * sizeof(std::uint32_t), 0,
+                                           gpu::Memory::kDevice});
+  out.squares = squares;
   graph.add_pass(
       clear_name,
       [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },

@@ -73,9 +73,11 @@ struct Coverage {
 /// Before tiles or pixels are listed: a shared::TileDispatch of none, at `offset` bytes.
 void clear_dispatch(gpu::Commands& commands, gpu::BufferRef dispatches, std::uint64_t offset);
 
-/// Lists of no tiles yet, of every kind: all frames ask for the same memory. @param clear_name of
-/// the pass that empties them. @param tiles that each list has room for.
-Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles);
+/// Lists of no tiles yet, of every kind: all frames with the same settings ask for the same memory.
+/// @param clear_name of the pass that empties them. @param tiles that each list has room for.
+/// @param squares whether their squares are looked for.
+Tiles create_tiles(gpu::FrameGraph& graph, const std::string& clear_name, std::uint32_t tiles,
+                   bool squares = false);
 
 /// Sorts tiles by whether any of their pixels has, or has not, a surface. @param name of the pass.
 Tiles classify_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,

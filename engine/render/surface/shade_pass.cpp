@@ -105,8 +105,7 @@ Tiles classify_shaded_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene, const ShadeIn& in, const Geometry& geometry,
                             gpu::BufferRef layer_tiles) {
   const std::uint32_t tiles = tile_count(scene.size);
-  Tiles out = create_tiles(graph, "classify_tiles_clear", tiles);
-  out.squares = looks_for_squares(in);
+  Tiles out = create_tiles(graph, "classify_tiles_clear", tiles, looks_for_squares(in));
   out.smooth_sky = sky_may_differ(scene, in);
   const SurfaceReads surfaces(geometry);
   const bool detail = looks_for_detail(scene, in);
