@@ -70,6 +70,7 @@ typename Map::mapped_type at_or_none(const Map& map, world::IVec3 at) {
 
 // Nearest islands of which enough is kept for edits. A giant takes some 100 MB.
 constexpr std::size_t kKept = 2;
+constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 constexpr int kSpare = 16;        // blocks about an island that has outgrown what is kept of it
 constexpr int kCallsToWait = 64;  // start() with nothing new, before it asks who is near
 // Calls of poll() in which a thread may begin a guess: where frames keep all processors busy, none
@@ -257,7 +258,15 @@ struct IslandLight::Rank {
   double distance = 0.0;
   world::IslandLevel row;
   Island* island = nullptr;
+  bool keyed = false;  // see Near
   std::optional<Key> key{};
+  std::size_t place = kNowhere;  // among islands in full detail, of which alone enough can be kept
+  bool is_near() const { return place < kKept; }
+  /// Whether to follow light from where it has not been followed yet.
+  bool rekeys() const {
+    return is_near() && key &&
+           std::ranges::find(island->keys, key->direction) == island->keys.end();
+  }
 };
 
 /// Islands, the nearest first; those without a distance last.
@@ -268,19 +277,22 @@ std::vector<IslandLight::Rank> IslandLight::by_distance(const NearIslands& islan
     if (found == islands.end())
       out.push_back({std::numeric_limits<double>::infinity(), row, &island});
     else
-      out.push_back({found->second.distance, row, &island, found->second.key});
+      out.push_back({found->second.distance, row, &island, found->second.keyed, found->second.key});
   }
   std::ranges::sort(out, {}, [](const Rank& rank) { return std::pair(rank.distance, rank.row); });
+  std::size_t place = 0;
+  for (Rank& rank : out)
+    if (rank.row.level == 0) rank.place = place++;
   return out;
 }
 
-void IslandLight::begin(const Rank& rank, bool is_near) {
+/// @param now see start(); else an edit is not to wait for a key.
+void IslandLight::begin(const Rank& rank, bool now) {
   Island& island = *rank.island;
   island.search = std::make_shared<Search>();
-  if (!is_near) island.keys = {};
-  // An edit is not to wait for it.
+  if (!rank.keyed) island.keys = {};
   const bool edited = island.kept && island.asked != island.version;
-  if (is_near && rank.key && !edited) {
+  if (rank.rekeys() && (!edited || now)) {
     if (cache_) island.keys = {};  // all is found anew, whatever has been asked for before
     const std::size_t slot = cache_ ? 0 : rank.key->slot;
     island.search->rekeyed = slot;
@@ -291,7 +303,7 @@ void IslandLight::begin(const Rank& rank, bool is_near) {
   island.search->work = work_;
   island.search->version = island.asked = island.version;
   island.search->sky = finds_ != Finds::kReach;
-  island.search->keep = is_near && !cache_ && island.search->sky && rank.row.level == 0;
+  island.search->keep = rank.is_near() && !cache_ && island.search->sky;
   island.search->transfer = std::move(island.kept);
   island.search->reaches_before = island.reaches;
   island.search->seams = island.seams;
@@ -314,25 +326,24 @@ void IslandLight::start(const world::Streamer& streamer,
   calls_with_nothing_new_ = 0;
   const std::vector<Rank> ranks = by_distance(islands());
   bool busy = false;
-  for (std::size_t i = 0; i < ranks.size(); ++i) {
-    Island& island = *ranks[i].island;
-    if (i > kKept && island.kept) discard(std::move(island.kept));
+  for (const Rank& rank : ranks) {
+    Island& island = *rank.island;
+    if (rank.place > kKept && island.kept) discard(std::move(island.kept));
     busy |= island.search || island.asked != island.version;
-    const bool rekey = i < kKept && ranks[i].key && (island.kept || now);
-    if (island.search || (island.asked == island.version && !rekey) ||
-        !streamer.settled(ranks[i].row.island))
+    const bool rekeys = rank.rekeys() && (island.kept || now);
+    if (island.search || (island.asked == island.version && !rekeys) ||
+        !streamer.settled(rank.row.island))
       continue;
-    begin(ranks[i], i < kKept);
+    begin(rank, now);
   }
   // When there is nothing else to do, the nearest one is looked at once more for edits to come, and
   // others for what they are asked to have.
   if (busy || cache_ || finds_ == Finds::kReach) return;
-  for (std::size_t i = 0; i < std::min(kKept, ranks.size()); ++i) {
-    const Island& island = *ranks[i].island;
-    const world::IslandLevel& row = ranks[i].row;
-    const bool missing = ranks[i].key || (i == 0 && row.level == 0);
-    if (island.search || island.kept || !missing || !streamer.settled(row.island)) continue;
-    return begin(ranks[i], true);
+  for (const Rank& rank : ranks) {
+    const Island& island = *rank.island;
+    if (!rank.is_near() || (rank.place != 0 && !rank.rekeys())) continue;
+    if (island.search || island.kept || !streamer.settled(rank.row.island)) continue;
+    return begin(rank, now);
   }
 }
 
@@ -399,7 +410,6 @@ std::vector<IslandLight::FoundReach> IslandLight::poll_reach() {
 IslandLight::Found IslandLight::found_of(const world::IslandLevel& row, Island& island,
                                          Search& search) {
   Found found{row, {}, search.keys};
-  island.said_keys = search.keys;
   Skies skies;
   island.guesses.clear();
   for (auto& [at, sky] : search.found) {
@@ -407,6 +417,8 @@ IslandLight::Found IslandLight::found_of(const world::IslandLevel& row, Island& 
     const auto closing = at_or_none(island.seams, at);
     const auto known = at_or_none(island.known, at);
     const bool edited = now && now != search.chunks[at];
+    // It keeps what was known from the keys before; another look follows.
+    if (edited) found.keys = island.said_keys;
     if (edited || (closing && closing != at_or_none(search.seams, at))) {
       auto guess = std::make_shared<Guess>();
       if (edited) guess->chunk = now;
@@ -419,6 +431,7 @@ IslandLight::Found IslandLight::found_of(const world::IslandLevel& row, Island& 
     skies[at] = sky;
     found.chunks.push_back({at, std::move(sky), !same});
   }
+  island.said_keys = found.keys;
   island.guessed.clear();
   discard(std::exchange(island.known, std::move(skies)));
   island.closings = std::move(search.closings);

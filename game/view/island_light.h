@@ -45,20 +45,20 @@ class IslandLight {
   void close(const world::SectionKey& key, std::vector<shared::Quad> seams);
   /// Removes a level of an island and its light.
   void end_island(const world::IslandLevel& row);
-  /// Looks at islands that have changed and whose chunks have all come: what is not there yet would
-  /// let light into rooms that it closes. The nearest one first.
   struct Key {
     std::size_t slot = 0;
     glm::vec3 direction{};
   };
   struct Near {
     double distance = 0.0;   ///< of an island from the camera
-    bool keyed = false;      ///< sun or moon are followed as they are
-    std::optional<Key> key;  ///< and now from there
+    bool keyed = false;      ///< what has been followed from key directions is wanted
+    std::optional<Key> key;  ///< light is to be followed from there, if it has not been
   };
   using NearIslands = std::map<world::IslandLevel, Near>;
-  /// @param islands called when they are needed. @param now they are, and a key is worth a look at
-  /// the whole island; else that has time.
+  /// Looks at islands that have changed and whose chunks have all come: what is not there yet would
+  /// let light into rooms that it closes. The nearest one first.
+  /// @param islands called when they are needed. @param now calls it in any case, and looks at a
+  /// whole island for a key's sake; else that waits until there is nothing else to do.
   void start(const world::Streamer& streamer, const std::function<NearIslands()>& islands,
              bool now);
   /// Waits until all that was started has been found.
@@ -149,7 +149,7 @@ class IslandLight {
   static void end_look(Search& search, Skies skies);
   struct Rank;
   std::vector<Rank> by_distance(const NearIslands& islands);
-  void begin(const Rank& rank, bool is_near);
+  void begin(const Rank& rank, bool now);
   /// Has a thread free what takes milliseconds to free.
   template <class T>
   void discard(T unused);

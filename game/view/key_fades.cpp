@@ -36,13 +36,29 @@ void KeyFades::show(const world::IslandLevel& row, const world::KeyDirections& k
   }
 }
 
-void KeyFades::advance() {
+void KeyFades::advance(const std::function<bool(const world::IslandLevel&)>& keyed) {
   for (auto& [row, island] : islands_) {
+    if (!keyed(row)) {
+      for (float& weight : island.weight) weight = std::max(weight - kStep, 0.0f);
+      continue;
+    }
     float& grows = island.weight[island.to];
     float& shrinks = island.weight[1 - island.to];
     if (island.keys[island.to]) grows = std::min(grows + kStep, 1.0f);
     shrinks = std::min(shrinks, 1.0f - grows);
   }
+}
+
+bool KeyFades::turn_to(const world::IslandLevel& row, const glm::vec3& direction) {
+  const auto found = islands_.find(row);
+  if (found == islands_.end()) return false;
+  Island& island = found->second;
+  for (std::size_t slot = 0; slot < island.keys.size(); ++slot)
+    if (island.keys[slot] == direction) {
+      island.to = slot;
+      return true;
+    }
+  return false;
 }
 
 void KeyFades::finish(const std::set<world::IslandLevel>& shown) {
@@ -52,13 +68,20 @@ void KeyFades::finish(const std::set<world::IslandLevel>& shown) {
   }
 }
 
-std::optional<std::size_t> KeyFades::unused(const world::IslandLevel& row) const {
+std::size_t KeyFades::next(const world::IslandLevel& row) const {
   const auto found = islands_.find(row);
   if (found == islands_.end()) return 0;
   const Island& island = found->second;
-  if (!island.keys[island.to]) return island.to;
-  if (island.weight[1 - island.to] > 0.0f) return std::nullopt;
-  return 1 - island.to;
+  return island.keys[island.to] ? 1 - island.to : island.to;
+}
+
+bool KeyFades::is_unseen(const world::IslandLevel& row, std::size_t slot) const {
+  const auto found = islands_.find(row);
+  return found == islands_.end() || found->second.weight[slot] == 0.0f;
+}
+
+bool KeyFades::shows(const world::IslandLevel& row) const {
+  return !is_unseen(row, 0) || !is_unseen(row, 1);
 }
 
 std::optional<glm::vec3> KeyFades::shown(const world::IslandLevel& row) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <map>
@@ -31,13 +32,19 @@ class KeyFades {
   void show(const world::IslandLevel& row, const world::KeyDirections& keys);
   void remove(const world::IslandLevel& row) { islands_.erase(row); }
   void clear() { islands_.clear(); }
-  /// A frame later: what fades is a step further.
-  void advance();
+  /// A frame later: what fades is a step further. @param keyed whether an island is to show any.
+  void advance(const std::function<bool(const world::IslandLevel&)>& keyed);
+  /// Fades to what has been followed from exactly there. @return whether there is such.
+  bool turn_to(const world::IslandLevel& row, const glm::vec3& direction);
   /// What fades has faded; other islands than these show none of it.
   void finish(const std::set<world::IslandLevel>& shown);
 
-  /// The slot that a direction may be put into unseen; none: both are shown.
-  std::optional<std::size_t> unused(const world::IslandLevel& row) const;
+  /// The slot to put a direction into.
+  std::size_t next(const world::IslandLevel& row) const;
+  /// Whether that is done unseen.
+  bool is_unseen(const world::IslandLevel& row, std::size_t slot) const;
+  /// Whether any of it is shown.
+  bool shows(const world::IslandLevel& row) const;
   /// The direction that is shown, or on its way; none: there is none.
   std::optional<glm::vec3> shown(const world::IslandLevel& row) const;
   std::array<render::KeyedBody, 2> of(const world::IslandLevel& row) const;

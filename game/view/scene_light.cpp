@@ -32,6 +32,7 @@ void SceneView::load_light(const Moment& moment) {
     find_light(moment, true);
     more |= island_light_->guesses();
   }
+  island_light_->wait();
   while (hand_over_light(moment, UINT64_MAX)) renderer_->reclaim();
   if (!sky_light_.idle()) {
     // Which islands have light must not depend on what was lit before.
@@ -41,7 +42,7 @@ void SceneView::load_light(const Moment& moment) {
   }
   std::set<world::IslandLevel> keyed;
   for (const auto& [row, island] : islands_to_light(moment, true))
-    if (island.keyed) keyed.insert(row);
+    if (key_directions_.contains(row)) keyed.insert(row);
   key_fades_.finish(keyed);
 }
 
@@ -66,17 +67,18 @@ IslandLight::NearIslands SceneView::islands_to_light(const Moment& moment, bool 
     if (const auto to_body =
             key_direction(sky, poses.of(islands_[near_slots_.at(row)].spec).rotation))
       directions[row] = *to_body;
+  for (auto& [row, island] : out) island.keyed = directions.contains(row) || key_fades_.shows(row);
   for (const auto& [row, to_body] : directions) {
-    IslandLight::Near& island = out.at(row);
-    island.keyed = true;
     const auto before = key_directions_.find(row);
     const bool rests = before != key_directions_.end() && before->second == to_body;
-    const std::optional<std::size_t> slot = key_fades_.unused(row);
-    if (!slot || (sky_light_.has(row) && !sky_light_.shows(row))) continue;
+    if ((now || rests) && key_fades_.turn_to(row, to_body)) continue;
+    const std::size_t slot = key_fades_.next(row);
+    const bool handed_over = !sky_light_.has(row) || sky_light_.shows(row);
+    if (!now && (!handed_over || !key_fades_.is_unseen(row, slot))) continue;
     const std::optional<glm::vec3> shown = key_fades_.shown(row);
     const float far = std::sin(glm::radians(kKeyStepDeg));
     if (!shown || (now || rests ? *shown != to_body : glm::length(*shown - to_body) > far))
-      island.key = IslandLight::Key{*slot, to_body};
+      out.at(row).key = IslandLight::Key{slot, to_body};
   }
   key_directions_ = std::move(directions);
   return out;

@@ -224,7 +224,7 @@ Result<void> SceneView::stream(const Moment& moment, std::optional<double> blend
     show_less(camera);
   }
   choose_levels(camera, world_time_s, {.keep = true, .blend_s = blend_s});
-  key_fades_.advance();
+  key_fades_.advance([&](const world::IslandLevel& row) { return key_directions_.contains(row); });
   find_light(moment, false);
   hand_over_light(moment, settings_.upload_budget_bytes);
   return {};

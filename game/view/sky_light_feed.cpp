@@ -41,7 +41,10 @@ bool same_box(const render::IslandChunks& a, const render::IslandChunks& b) {
 }  // namespace
 
 void SkyLightFeed::add(IslandLight::Found found) {
-  if (found.chunks.empty()) return;
+  if (found.chunks.empty()) {
+    shown_.emplace_back(found.row, found.keys);
+    return;
+  }
   Entry& entry = entries_[found.row];
   const render::IslandChunks box = box_of(found);
   // A find that replaces one before it was all put: what that one would have changed. What was put

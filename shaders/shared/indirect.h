@@ -14,8 +14,8 @@
 // - a table a chunk of the grid (z fastest, x, y slowest): kIndirectTableTexels, a word a brick of
 // 8^3
 //   voxels (index z + 8 x + 64 y), the first texel of the brick's masks, or 0: it has no face; with
-//   kIndirectTinted if records of the chunk have a tint, kIndirectKeyed if light from key
-//   directions;
+//   kIndirectTinted if records of the chunk have a tint, kIndirectKeyed if they have light
+//   from key directions;
 // - a brick's masks: for each face direction and y of the brick a texel: xy which voxels have the
 // face
 //   (x: those with x < 4; bit z + 8 (x % 4)), zw the record of the first of each;

@@ -32,7 +32,7 @@ layout(constant_id = kSquaresConstant) const bool kSquares = false;        // of
 #include "include/surface/surface.glsl"
 
 // Of the bilinear weights, that alike points have to have: beside an edge, where shadows and corners are, one point far away does not do.
-const float kLeastShare = 0.1;
+const float kLeastShare = 0.25;
 
 const uint kRun = kTileEdge * kTileEdge / kChooseGroup;  // pixels of an invocation
 

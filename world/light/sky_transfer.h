@@ -18,8 +18,8 @@
 namespace skerry::world {
 
 /// How much of the sky each drawn face of an island sees, past the island's own voxels, what weak
-/// lamps give it, and what other faces reflect to it. A function of the island's voxels alone,
-/// whatever the order of calls and the threads.
+/// lamps give it, and what other faces reflect to it. A function of the island's voxels and of the
+/// key directions (BounceLight) alone, whatever the order of calls and the threads.
 ///
 /// A voxel sees the sky along one of 128 lattice vectors when the line to the next voxel along it,
 /// to the next but one and so on, touches air only. Such a line's voxels hang together by their

@@ -10,7 +10,7 @@
 layout(constant_id = kToleranceConstant) const float kTolerance = 0.3;  // how much the four may differ, of the brightest
 
 // How far apart planes may lie that are lit alike: by rounding; a plant above its foot; and pixels, which far planes lie closer than.
-const float kAlikeBlocks = 0.05, kAlikePlants = 1.05, kAlikePixels = 3.0;
+const float kAlikeBlocks = 0.05, kAlikePlants = 1.05, kAlikePixels = 1.0;
 // How much farther or nearer, as a share and in blocks.
 const float kAlikeShare = 0.1, kAlikeNear = 2.0;
 

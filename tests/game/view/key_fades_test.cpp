@@ -24,13 +24,17 @@ namespace {
 const world::IslandLevel kRow{7}, kOther{8};
 const glm::vec3 kEast{1.0f, 0.0f, 0.0f}, kUp{0.0f, 1.0f, 0.0f}, kSouth{0.0f, 0.0f, 1.0f};
 
+bool kAll(const world::IslandLevel&) {
+  return true;
+}
+
 float sum_of(const std::array<render::KeyedBody, 2>& keyed) {
   return keyed[0].weight + keyed[1].weight;
 }
 
 TEST(KeyFades, TheFirstLightOfAnIslandIsThereAtOnce) {
   KeyFades fades;
-  EXPECT_EQ(fades.unused(kRow), 0u);
+  EXPECT_EQ(fades.next(kRow), 0u);
   fades.show(kRow, {kEast, std::nullopt});
   EXPECT_EQ(fades.of(kRow)[0].weight, 1.0f);
   EXPECT_EQ(fades.of(kRow)[0].direction, kEast);
@@ -43,26 +47,46 @@ TEST(KeyFades, OneDirectionFadesIntoTheNext) {
   fades.show(kRow, {kEast, std::nullopt});
   world::KeyDirections keys{kEast, std::nullopt};
   for (const glm::vec3& next : {kUp, kSouth, kEast}) {
-    const std::optional<std::size_t> slot = fades.unused(kRow);
-    ASSERT_TRUE(slot);
-    EXPECT_EQ(fades.of(kRow)[*slot].weight, 0.0f);  // nobody sees it being replaced
-    keys[*slot] = next;
+    const std::size_t slot = fades.next(kRow);
+    ASSERT_TRUE(fades.is_unseen(kRow, slot));
+    EXPECT_EQ(fades.of(kRow)[slot].weight, 0.0f);
+    keys[slot] = next;
     fades.show(kRow, keys);
-    EXPECT_EQ(fades.of(kRow)[*slot].weight, 0.0f);
-    EXPECT_FALSE(fades.unused(kRow));
+    EXPECT_EQ(fades.of(kRow)[slot].weight, 0.0f);
+    EXPECT_FALSE(fades.is_unseen(kRow, fades.next(kRow)));
     float before = 0.0f;
     int frames = 0;
-    for (; !fades.unused(kRow); ++frames) {
-      fades.advance();
+    for (; !fades.is_unseen(kRow, fades.next(kRow)); ++frames) {
+      fades.advance(kAll);
       EXPECT_FLOAT_EQ(sum_of(fades.of(kRow)), 1.0f);
-      EXPECT_GT(fades.of(kRow)[*slot].weight, before);
-      EXPECT_LE(fades.of(kRow)[*slot].weight - before, 0.05f);
-      before = fades.of(kRow)[*slot].weight;
+      EXPECT_GT(fades.of(kRow)[slot].weight, before);
+      EXPECT_LE(fades.of(kRow)[slot].weight - before, 0.05f);
+      before = fades.of(kRow)[slot].weight;
       ASSERT_LT(frames, 100);
     }
-    EXPECT_EQ(fades.of(kRow)[*slot].weight, 1.0f);
+    EXPECT_EQ(fades.of(kRow)[slot].weight, 1.0f);
     EXPECT_EQ(fades.shown(kRow), next);
   }
+}
+
+TEST(KeyFades, AnIslandThatIsNoLongerNearFadesOutAndComesBack) {
+  KeyFades fades;
+  fades.show(kRow, {kEast, kUp});
+  ASSERT_TRUE(fades.turn_to(kRow, kUp));
+  EXPECT_FALSE(fades.turn_to(kRow, kSouth));
+  EXPECT_FALSE(fades.turn_to(kOther, kUp));
+  fades.advance(kAll);
+  EXPECT_GT(fades.of(kRow)[1].weight, 0.0f);
+  float before = 1.0f;
+  for (int frame = 0; frame < 40; ++frame) {
+    fades.advance([](const world::IslandLevel& row) { return row != kRow; });
+    const float now = sum_of(fades.of(kRow));
+    EXPECT_LE(before - now, 0.07f);
+    before = now;
+  }
+  EXPECT_FALSE(fades.shows(kRow));
+  for (int frame = 0; frame < 40; ++frame) fades.advance(kAll);
+  EXPECT_EQ(fades.of(kRow)[1].weight, 1.0f);
 }
 
 TEST(KeyFades, LightThatHadNoDirectionFadesIn) {
@@ -71,7 +95,7 @@ TEST(KeyFades, LightThatHadNoDirectionFadesIn) {
   EXPECT_EQ(sum_of(fades.of(kRow)), 0.0f);
   fades.show(kRow, {kUp, std::nullopt});
   EXPECT_EQ(sum_of(fades.of(kRow)), 0.0f);
-  fades.advance();
+  fades.advance(kAll);
   EXPECT_GT(sum_of(fades.of(kRow)), 0.0f);
   EXPECT_LT(sum_of(fades.of(kRow)), 0.1f);
 }
@@ -81,7 +105,7 @@ TEST(KeyFades, APictureThatStandsStillShowsNoFade) {
   fades.show(kRow, {kEast, std::nullopt});
   fades.show(kOther, {kEast, std::nullopt});
   fades.show(kRow, {kEast, kUp});
-  fades.advance();
+  fades.advance(kAll);
   fades.finish({kRow});
   EXPECT_EQ(fades.of(kRow)[0].weight, 0.0f);
   EXPECT_EQ(fades.of(kRow)[1].weight, 1.0f);
@@ -117,7 +141,8 @@ class KeyedFrames : public gpu::GpuTest {
     return *std::move(made);
   }
   /// Over the camera: below it, most of the light is what the ground about it reflects.
-  static void add_roof(SceneView& view) {
+  static void add_roof(SceneView& view) { put_roof(view, {-8, 8}, world::block::kStone); }
+  static void put_roof(SceneView& view, std::array<int, 2> across, world::BlockId block) {
     const render::FixedPos& eye = view.start_camera().position;
     const world::WorldPos at{eye[0], eye[1], eye[2]};
     const std::uint64_t id = view.world().islands_near(at, 100.0, 0.0).front().id;
@@ -126,10 +151,12 @@ class KeyedFrames : public gpu::GpuTest {
         glm::inverse(pose.rotation) * world::difference_blocks(at, pose.origin);
     const world::IVec3 over{world::floor_to_int(place.x), world::floor_to_int(place.y) + 2,
                             world::floor_to_int(place.z)};
-    for (int x = -8; x <= 8; ++x)
+    for (int x = across[0]; x <= across[1]; ++x)
       for (int z = -8; z <= 8; ++z)
-        EXPECT_TRUE(
-            view.world().set_block(id, {over.x + x, over.y, over.z + z}, world::block::kStone));
+        EXPECT_TRUE(view.world().set_block(id, {over.x + x, over.y, over.z + z}, block));
+  }
+  static void take_part_of_roof(SceneView& view) {
+    put_roof(view, {0, 8}, world::block::kAirBlock);
   }
   static SceneView::Moment moment(SceneView& view, double hour) {
     SceneView::Moment out;
@@ -170,6 +197,13 @@ TEST_F(KeyedFrames, AreTheSameWhateverTheSunHasBeenFollowedFromBefore) {
 }
 
 // Streams as a game does, while the clock runs and once it rests.
+TEST_F(KeyedFrames, AreThoseOfTheirMomentAfterAnEditToo) {
+  const auto fresh = open(), old = open();
+  EXPECT_TRUE(old->load_completely(moment(*old, 9.0)));
+  for (const auto& view : {fresh.get(), old.get()}) take_part_of_roof(*view);
+  EXPECT_TRUE(alike(loaded(*old, 10.0), loaded(*fresh, 10.0)));
+}
+
 TEST_F(KeyedFrames, InPlayComeToWhereTheSunRests) {
   const auto fresh = open(), played = open();
   const Picture right = loaded(*fresh, 10.0);

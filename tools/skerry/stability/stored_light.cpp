@@ -289,7 +289,7 @@ double not_finite(std::span<const glm::uvec4> texels, std::size_t islands) {
   const std::size_t first = (islands + 3) / 4;  // which sky each has, before the skies
   for (std::size_t i = first; i < texels.size(); ++i)
     for (int word = 0; word < 4; ++word) {
-      if ((i - first) % shared::kIndirectIslandTexels == shared::kIndirectHarmonics + 3) {
+      if ((i - first) % shared::kIndirectIslandTexels >= shared::kIndirectHarmonics + 3) {
         count += std::isfinite(std::bit_cast<float>(texels[i][word])) ? 0.0 : 1.0;
         continue;
       }
