@@ -132,7 +132,7 @@ MUTANTS = (
            "kShapeOfBodies = 0.8f;", "kShapeOfBodies = 1.4f;", "water cave_mouth"),
     Mutant("sun_reflected_twice", "what is followed from a key direction is in the harmonics too",
            "engine/render/sky/sky_irradiance.cpp",
-           "add_body(harmonics, direction, -part, 1.0f, kShapeOfBodies);", "", "water cave_mouth"),
+           "add_body(harmonics, direction, -part,", "add_body(harmonics, direction, 0.0f * part,", "water cave_mouth"),
     Mutant("key_light_lost", "what is followed from a key direction is not shown", "shaders/include/light/indirect.glsl",
            "if (keyed) sky.bounced +=", "if (false) sky.bounced +=", "water cave_mouth"),
     Mutant("sun_through_leaves", "leaves and plants do not stop the light of a body that is followed",
