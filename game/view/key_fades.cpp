@@ -30,9 +30,10 @@ void KeyFades::show(const world::IslandLevel& row, const world::KeyDirections& k
   }
   for (std::size_t slot = 0; slot < keys.size(); ++slot) {
     if (keys[slot] == before[slot]) continue;
-    const bool jumps = island.weight[slot] > 0.0f;
-    island.weight[slot] = jumps && keys[slot] ? island.weight[slot] : 0.0f;
-    if (keys[slot]) island.to = slot;
+    if (keys[slot])
+      island.to = slot;
+    else
+      island.weight[slot] = 0.0f;
   }
 }
 

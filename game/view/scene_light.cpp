@@ -77,7 +77,7 @@ IslandLight::NearIslands SceneView::islands_to_light(const Moment& moment, bool 
     if (!now && (!handed_over || !key_fades_.is_unseen(row, slot))) continue;
     const std::optional<glm::vec3> shown = key_fades_.shown(row);
     const float far = std::sin(glm::radians(kKeyStepDeg));
-    if (!shown || (now || rests ? *shown != to_body : glm::length(*shown - to_body) > far))
+    if (now || rests || !shown || glm::length(*shown - to_body) > far)
       out.at(row).key = IslandLight::Key{slot, to_body};
   }
   key_directions_ = std::move(directions);

@@ -357,6 +357,7 @@ void OpenSky::hide(const IslandShade& shade, const glm::dquat& rotation, Lobes& 
 Keyed OpenSky::take_keyed(const IslandPlacement& island, const IslandShade& shade,
                           Harmonics& harmonics) const {
   Keyed out{};
+  if (island.keyed[0].weight == 0.0f && island.keyed[1].weight == 0.0f) return out;
   const auto take = [&](const glm::dvec3& to_body, glm::vec3 irradiance) {
     if (irradiance == glm::vec3(0.0f)) return;
     if (const std::optional<IslandShade::Open> open = shade.towards(glm::vec3(to_body)))

@@ -15,8 +15,8 @@
 
 #include "engine/gpu/transfer/readback.h"
 #include "game/view/scene_view.h"
+#include "tests/game/view/roof.h"
 #include "tests/gpu/test_device.h"
-#include "world/islands/march.h"
 
 namespace skerry::game {
 namespace {
@@ -141,22 +141,9 @@ class KeyedFrames : public gpu::GpuTest {
     return *std::move(made);
   }
   /// Over the camera: below it, most of the light is what the ground about it reflects.
-  static void add_roof(SceneView& view) { put_roof(view, {-8, 8}, world::block::kStone); }
-  static void put_roof(SceneView& view, std::array<int, 2> across, world::BlockId block) {
-    const render::FixedPos& eye = view.start_camera().position;
-    const world::WorldPos at{eye[0], eye[1], eye[2]};
-    const std::uint64_t id = view.world().islands_near(at, 100.0, 0.0).front().id;
-    const world::Pose pose = *view.world().pose(id, 0.0);
-    const glm::dvec3 place =
-        glm::inverse(pose.rotation) * world::difference_blocks(at, pose.origin);
-    const world::IVec3 over{world::floor_to_int(place.x), world::floor_to_int(place.y) + 2,
-                            world::floor_to_int(place.z)};
-    for (int x = across[0]; x <= across[1]; ++x)
-      for (int z = -8; z <= 8; ++z)
-        EXPECT_TRUE(view.world().set_block(id, {over.x + x, over.y, over.z + z}, block));
-  }
+  static void add_roof(SceneView& view) { test::put_roof(view, 2, -8, 8, world::block::kStone); }
   static void take_part_of_roof(SceneView& view) {
-    put_roof(view, {0, 8}, world::block::kAirBlock);
+    test::put_roof(view, 2, 0, 8, world::block::kAirBlock);
   }
   static SceneView::Moment moment(SceneView& view, double hour) {
     SceneView::Moment out;

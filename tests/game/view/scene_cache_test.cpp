@@ -3,14 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <vector>
 
 #include "engine/gpu/transfer/readback.h"
 #include "game/view/scene_view.h"
+#include "tests/game/view/roof.h"
 #include "tests/gpu/test_device.h"
-#include "world/islands/march.h"
 
 namespace skerry::game {
 namespace {
@@ -49,20 +48,7 @@ class SceneCacheFrames : public gpu::GpuTest {
     return draw(device(), *open(options, cache));
   }
   /// Puts a roof over the camera, which takes most of the sky from the ground about it.
-  static void add_roof(SceneView& view) {
-    const render::FixedPos& eye = view.start_camera().position;
-    const world::WorldPos at{eye[0], eye[1], eye[2]};
-    const std::uint64_t id = view.world().islands_near(at, 100.0, 0.0).front().id;
-    const world::Pose pose = *view.world().pose(id, 0.0);
-    const glm::dvec3 place =
-        glm::inverse(pose.rotation) * world::difference_blocks(at, pose.origin);
-    const world::IVec3 over{world::floor_to_int(place.x), world::floor_to_int(place.y) + 3,
-                            world::floor_to_int(place.z)};
-    for (int x = -8; x <= 8; ++x)
-      for (int z = -8; z <= 8; ++z)
-        EXPECT_TRUE(
-            view.world().set_block(id, {over.x + x, over.y, over.z + z}, world::block::kStone));
-  }
+  static void add_roof(SceneView& view) { test::put_roof(view, 3, -8, 8, world::block::kStone); }
 };
 
 TEST_F(SceneCacheFrames, PicturesAreThoseOfAViewThatSharesNothing) {
