@@ -103,7 +103,7 @@ MUTANTS = (
     Mutant("sky_below", "the sky shines from below", "engine/render/sky/sky_rows.cpp",
            "radiance(directions(row))", "radiance(directions(kRows - 1 - row))", "day dusk"),
     Mutant("sky_through_one_wall", "light slips through one voxel of each line", "world/light/sky_transfer.cpp",
-           "for (const IVec3& o : between)", "for (const IVec3& o : std::span(between).subspan(1))", "day cave_mouth"),
+           "for (const LineVoxel& voxel : voxels) {", "for (const LineVoxel& voxel : std::span(voxels).subspan(1)) {", "day cave_mouth"),
     Mutant("sky_lobes_swapped", "steep and grazing sky are swapped", "shaders/include/light/indirect.glsl",
            "vec4(unpackHalf2x16(lobes.x), unpackHalf2x16(lobes.y))",
            "vec4(unpackHalf2x16(lobes.x).yx, unpackHalf2x16(lobes.y).yx)", "dusk day"),
@@ -149,7 +149,7 @@ MUTANTS = (
     Mutant("bounce_grey", "all faces reflect alike", "world/light/bounce_light.cpp",
            "albedo_[face.block][face.direction] / kPi", "glm::vec3(0.4f) / kPi", "water mesa"),
     Mutant("bounce_other_side", "lines end at the far side of a block", "world/light/lattice_lines.cpp",
-           "2 * axis + (sign > 0 ? 1 : 0)", "2 * axis + (sign > 0 ? 0 : 1)", "water cave"),
+           "2 * voxel.axis + (forward ? 1 : 0)", "2 * voxel.axis + (forward ? 0 : 1)", "water cave"),
     Mutant("bounce_lamps_lost", "the light of lamps is not reflected", "world/light/bounce_light.cpp",
            "out.lamps = (*lit)[face.direction];", "{}", "cave_torches cave"),
     # Sky and air

@@ -323,7 +323,7 @@ MUTANTS = (
     Mutant("rock_is_clear", "rock hides no sky from faces", "world/light/sky_transfer.cpp",
            "row[w] = ~opaque[w];", "row[w] = ~(opaque[w] & 0u);", "stored_light.worlds"),
     Mutant("light_past_edges", "light passes where blocks meet at edges", "world/light/base/sky_rays.cpp",
-           "if (enter > leave) continue;", "if (enter >= leave) continue;", "stored_light.worlds"),
+           "    out.push_back(\n        {{offset", "    if (!out.empty() && out.back().entered == crossing.at) out.pop_back();\n    out.push_back(\n        {{offset", "stored_light.worlds"),
     Mutant("bright_weak_lamps_fade", "weak lamps get dimmer beyond a brightness", "world/light/lamp_light.cpp",
            "out[face] = lamp.intensity * (", "out[face] = lamp.intensity / (1.0f + lamp.intensity * lamp.intensity) * (",
            "stored_light.lamps"),

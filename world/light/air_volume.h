@@ -73,6 +73,8 @@ class VoxelBits {
   /// Words of a row, with one more of `outside` readable before and after. @param x, y from low.
   std::uint64_t* row(int x, int y) { return words_.data() + index(x, y); }
   const std::uint64_t* row(int x, int y) const { return words_.data() + index(x, y); }
+  /// Words from a row to that of the next x.
+  std::ptrdiff_t row_step() const { return row_words() + 2; }
   bool has_row(int x, int y) const { return x >= 0 && x < size_.x && y >= 0 && y < size_.y; }
 
   /// Number of a voxel's bit; of a voxel a vector further, bit_at() + bit_step(). Holds for z up to

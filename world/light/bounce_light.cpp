@@ -19,9 +19,9 @@ constexpr float kShapeSteps = 127.0f;
 constexpr std::uint32_t kFirstEvery = 4, kLastEvery = 2;
 constexpr std::uint8_t kDeepest = 32;  // voxels: below, water is as if it was so deep
 
-/// Octants in front of a face, and what each pattern of theirs weighs.
+/// Fans of a face, and what each pattern of theirs weighs.
 struct Hemisphere {
-  std::array<int, 4> octants{};
+  std::array<std::size_t, 4> fans{};
   std::array<float, shared::kSkyPatternCount> weight{};
 };
 
@@ -29,9 +29,9 @@ Hemisphere hemisphere_of(int face) {
   const FaceAxes axes(face);
   Hemisphere out;
   for (int quarter = 0; quarter < 4; ++quarter)
-    out.octants[static_cast<std::size_t>(quarter)] = (axes.sign < 0 ? 1 << axes.own : 0) |
-                                                     (quarter & 1 ? 1 << axes.b : 0) |
-                                                     (quarter & 2 ? 1 << axes.c : 0);
+    out.fans[static_cast<std::size_t>(quarter)] =
+        fan_of(axes.own, (axes.sign < 0 ? 1 << axes.own : 0) | (quarter & 1 ? 1 << axes.b : 0) |
+                             (quarter & 2 ? 1 << axes.c : 0));
   const LobeWeights& weights = lobe_weights(axes.own);
   float sum = 0.0f;
   for (std::size_t k = 0; k < out.weight.size(); ++k)
@@ -52,9 +52,8 @@ const GlassTints::Tint* tint_of(const GlassTints::Tints& tints, std::size_t patt
   return found == tints.end() ? nullptr : &*found;
 }
 
-/// Harmonics of the lattice vectors, by octant and pattern.
-const std::array<std::array<float, kHarmonics>, kOctants * shared::kSkyPatternCount>&
-vector_harmonics() {
+/// Harmonics of a lattice vector.
+const std::array<float, kHarmonics>& harmonics_along(std::size_t fan, std::size_t pattern) {
   static const auto kAll = [] {
     std::array<std::array<float, kHarmonics>, kOctants * shared::kSkyPatternCount> out{};
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -66,7 +65,7 @@ vector_harmonics() {
     }
     return out;
   }();
-  return kAll;
+  return kAll[static_cast<std::size_t>(octant_of(fan)) * shared::kSkyPatternCount + pattern];
 }
 
 bool is_liquid(const shared::Quad& quad) {
@@ -295,38 +294,15 @@ void BounceLight::take_water(const LightChunks& chunks) {
 
 // --- Lines ---
 
-/// The face of a voxel that the line can come in by.
-BounceLight::Number BounceLight::entered(IVec3 voxel, const LatticeLines::Touched& touched) const {
-  for (const std::int8_t direction : touched.entered) {
-    if (direction < 0) break;
-    const FaceAxes axes(direction);
-    const Number number = number_of(voxel + axis_vector(axes.own, axes.sign), direction);
-    if (number != 0) return number;
-  }
-  const Number plant = number_of(voxel, 2);
-  return plant != 0 && faces_[plant - 1].plant ? plant : 0;
-}
-
-// Voxels that are touched at once stop a line together.
-BounceLight::Source BounceLight::source_at(IVec3 last, std::size_t way, std::size_t part) {
-  const std::vector<LatticeLines::Touched>& touched = lines_.way(way).touched;
-  std::array<const LatticeLines::Touched*, 3> stops{};
-  std::size_t count = 0;
-  for (const LatticeLines::Touched& t : touched) {
-    if (count == stops.size() || (count != 0 && t.group != stops[0]->group)) break;
-    if (!lines_.open(last + t.offset, way)) stops[count++] = &t;
-  }
-  Several several;
-  several.share = 1.0f / static_cast<float>(count);
-  bool any = false;
-  for (std::size_t k = 0; k < count; ++k) {
-    several.faces[k] = entered(last + stops[k]->offset, *stops[k]);
-    any |= several.faces[k] != 0;
-  }
-  if (!any) return kNothing;
-  if (count == 1) return several.faces[0];
-  several_[part].push_back(several);
-  return kSeveral | static_cast<Source>(part + kParts * (several_[part].size() - 1));
+/// The face that it comes in by, or the plant that stops it.
+BounceLight::Source BounceLight::source_at(IVec3 last, std::size_t way) const {
+  const std::vector<LatticeLines::Passed>& passed = lines_.way(way).passed;
+  const std::size_t count = lines_.passed_before_stop(last, way);
+  const IVec3 before = count == 0 ? last : last + passed[count - 1].offset;
+  const Number face = number_of(before, passed[count].entered);
+  if (face != 0) return face;
+  const Number plant = number_of(last + passed[count].offset, 2);
+  return plant != 0 && faces_[plant - 1].plant ? plant : kNothing;
 }
 
 /// Which of the vectors of an octant a face looks along: every so many from there, others than its
@@ -351,23 +327,24 @@ void BounceLight::for_each_line(const Face& face, std::size_t quarter, std::size
 }
 
 /// What comes along a line that does not end at the sky.
-BounceLight::Source BounceLight::look(IVec3 from, int octant, std::size_t pattern,
-                                      std::size_t part) {
-  const std::size_t way = LatticeLines::way_number(octant, pattern);
+BounceLight::Source BounceLight::look(IVec3 from, std::size_t way) const {
   const std::optional<IVec3> last = lines_.end_of(from, way);
-  return last ? source_at(*last, way, part) : kNothing;
+  return last ? source_at(*last, way) : kNothing;
 }
 
-void BounceLight::look_along(Number number, const SeenSky& seen, std::size_t part) {
+void BounceLight::look_along(Number number, const SeenSky& seen) {
   const Face& face = faces_[number];
+  const std::size_t voxel = wanted_.of(face.front);
   std::array<Source, kLines>& sources = sources_[number];
   std::size_t quarter = 0;
-  for (const int octant : hemisphere(face.direction).octants) {
-    const std::uint32_t bits = seen[static_cast<std::size_t>(octant)];
+  for (const std::size_t fan : hemisphere(face.direction).fans) {
+    const std::uint32_t bits = seen.of(voxel, fan);
     for (std::size_t k = 0; k < kPatterns; ++k) {
       std::optional<Source> source;  // looked for once, and only for those that look there
       for_each_line(face, quarter, k, [&](std::size_t line) {
-        if (!source) source = (bits >> k & 1u) != 0 ? kNothing : look(face.front, octant, k, part);
+        if (!source)
+          source =
+              (bits >> k & 1u) != 0 ? kNothing : look(face.front, LatticeLines::way_number(fan, k));
         sources[line] = *source;
       });
     }
@@ -376,25 +353,19 @@ void BounceLight::look_along(Number number, const SeenSky& seen, std::size_t par
 }
 
 void BounceLight::set_line(IVec3 voxel, std::size_t way, Source source) {
-  const std::size_t base = wanted_.of(voxel) * 6;
   sources_.resize(faces_.size());
-  const auto octant = static_cast<int>(way / kPatterns);
-  const std::size_t k = way % kPatterns;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int direction = 2 * axis + (octant >> axis & 1);
-    const Number number = numbers_[base + static_cast<std::size_t>(direction)];
-    if (number == 0) continue;
-    const Face& face = faces_[number - 1];
-    const auto& octants = hemisphere(direction).octants;
-    const auto quarter = static_cast<std::size_t>(
-        std::find(octants.begin(), octants.end(), octant) - octants.begin());
-    const auto set = [&](std::size_t line) {
-      if (std::exchange(sources_[number - 1][line], source) == source) return;
-      relooked_.add(number - 1);
-      add_reader(source, number - 1);
-    };
-    for_each_line(face, quarter, k, set);
-  }
+  const std::size_t fan = way / kPatterns;
+  const int axis = axis_of(fan), direction = 2 * axis + (octant_of(fan) >> axis & 1);
+  const Number number = number_of(voxel, direction);
+  if (number == 0) return;
+  const auto& fans = hemisphere(direction).fans;
+  const auto quarter =
+      static_cast<std::size_t>(std::find(fans.begin(), fans.end(), fan) - fans.begin());
+  for_each_line(faces_[number - 1], quarter, way % kPatterns, [&](std::size_t line) {
+    if (std::exchange(sources_[number - 1][line], source) == source) return;
+    relooked_.add(number - 1);
+    add_reader(source, number - 1);
+  });
 }
 
 void BounceLight::look_from(IVec3 voxel, const SeenSky& seen) {
@@ -403,7 +374,7 @@ void BounceLight::look_from(IVec3 voxel, const SeenSky& seen) {
   for (std::size_t direction = 0; direction < 6; ++direction) {
     const Number number = numbers_[base + direction];
     if (number == 0) continue;
-    look_along(number - 1, seen, 0);
+    look_along(number - 1, seen);
     relooked_.add(number - 1);
     for (const Source source : sources_[number - 1]) add_reader(source, number - 1);
   }
@@ -434,16 +405,16 @@ void BounceLight::shade_behind(IVec3 voxel) {
 
 /// Of the sky, what a face loses to glass: to be taken from its direct light.
 BounceLight::Light BounceLight::lost_to_glass(std::size_t voxel, const Face& face,
-                                              std::span<const SeenSky> seen) const {
+                                              const SeenSky& seen) const {
   const Hemisphere& way = hemisphere(face.direction);
   Light lost;
-  for (const int octant : way.octants) {
-    const GlassTints::Tints* tints = tints_.find(voxel, octant);
+  for (const std::size_t fan : way.fans) {
+    const GlassTints::Tints* tints = tints_.find(voxel, fan);
     if (tints == nullptr) continue;
-    const std::uint32_t bits = seen[voxel][static_cast<std::size_t>(octant)];
+    const std::uint32_t bits = seen.of(voxel, fan);
     for (const GlassTints::Tint& tint : *tints) {
       if ((bits >> tint.pattern & 1u) == 0) continue;
-      const auto& basis = vector_harmonics()[LatticeLines::way_number(octant, tint.pattern)];
+      const auto& basis = harmonics_along(fan, tint.pattern);
       const glm::vec3 share = (1.0f - tint.left) * way.weight[tint.pattern];
       lost.mean += share * basis[0];
       for (std::size_t i = 0; i < lost.shape.size(); ++i)
@@ -453,18 +424,17 @@ BounceLight::Light BounceLight::lost_to_glass(std::size_t voxel, const Face& fac
   return lost;
 }
 
-BounceLight::Light BounceLight::direct_of(const Face& face, std::span<const SeenSky> seen,
+BounceLight::Light BounceLight::direct_of(const Face& face, const SeenSky& seen,
                                           const LampLightMap& lamps) const {
   const std::size_t voxel = wanted_.of(face.front);
   const Hemisphere& way = hemisphere(face.direction);
   std::array<float, kHarmonics> sum{};
-  for (const int octant : way.octants) {
-    const std::uint32_t bits = seen[voxel][static_cast<std::size_t>(octant)];
+  for (const std::size_t fan : way.fans) {
+    const std::uint32_t bits = seen.of(voxel, fan);
     if (bits == 0) continue;
     for (std::size_t k = 0; k < shared::kSkyPatternCount; ++k) {
       if ((bits >> k & 1u) == 0) continue;
-      const auto& basis =
-          vector_harmonics()[static_cast<std::size_t>(octant) * shared::kSkyPatternCount + k];
+      const auto& basis = harmonics_along(fan, k);
       for (std::size_t i = 0; i < kHarmonics; ++i) sum[i] += way.weight[k] * basis[i];
     }
   }
@@ -500,20 +470,12 @@ void BounceLight::for_each_sender(Number number, int step, const Fn& fn) const {
   const std::size_t voxel = tints_.any() ? wanted_.of(face.front) : 0;
   const Source* source = sources_[number].data() + (last ? kFirstLines : 0);
   for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-    const GlassTints::Tints* tints =
-        tints_.any() ? tints_.find(voxel, way.octants[quarter]) : nullptr;
+    const GlassTints::Tints* tints = tints_.any() ? tints_.find(voxel, way.fans[quarter]) : nullptr;
     for (std::size_t k = first; k < kPatterns; k += every, ++source) {
       if (*source == kNothing) continue;
       const float weight = way.weight[k] * whole;
       const GlassTints::Tint* tint = tints ? tint_of(*tints, k) : nullptr;
-      if ((*source & kSeveral) == 0) {
-        fn(*source - 1, weight, tint);
-        continue;
-      }
-      const Source place = *source & ~kSeveral;
-      const Several& several = several_[place % kParts][place / kParts];
-      for (const Number from : several.faces)
-        if (from != 0) fn(from - 1, weight * several.share, tint);
+      fn(*source - 1, weight, tint);
     }
   }
 }
@@ -530,8 +492,7 @@ BounceLight::Light BounceLight::gathered(Number number, int step) const {
   return sum;
 }
 
-BounceLight::PackedLight BounceLight::light_of(Number number, int step,
-                                               std::span<const SeenSky> seen,
+BounceLight::PackedLight BounceLight::light_of(Number number, int step, const SeenSky& seen,
                                                const LampLightMap& lamps) const {
   const Face& face = faces_[number];
   Light light;
@@ -543,18 +504,16 @@ BounceLight::PackedLight BounceLight::light_of(Number number, int step,
   return packed(reflected(face, light));
 }
 
-void BounceLight::follow(int step, int part, std::span<const SeenSky> seen,
-                         const LampLightMap& lamps) {
+void BounceLight::follow(int step, int part, const SeenSky& seen, const LampLightMap& lamps) {
   const std::size_t count = faces_.size(), p = static_cast<std::size_t>(part);
   for (std::size_t i = count * p / kParts; i < count * (p + 1) / kParts; ++i) {
     const auto number = static_cast<Number>(i);
     if (step == 0) {
-      look_along(number, seen[wanted_.of(faces_[i].front)], p);
+      look_along(number, seen);
       look_at_bodies(number);
     }
     leaving_[static_cast<std::size_t>(step)][i] = light_of(number, step, seen, lamps);
   }
-  if (step == 0 && part == 0) first_several_ = several_[0].size();
 }
 
 void BounceLight::set_key(std::size_t slot, const glm::vec3& to_body) {
@@ -599,19 +558,9 @@ std::size_t BounceLight::bytes() const {
                       water_.size() * sizeof(Water);
   for (const std::vector<std::uint32_t>& from : from_body_)
     bytes += from.size() * sizeof(std::uint32_t);
-  for (const std::vector<Several>& several : several_) bytes += several.size() * sizeof(Several);
   for (const std::vector<PackedLight>& light : leaving_)
     bytes += light.size() * sizeof(PackedLight);
   return bytes;
-}
-
-template <class Fn>
-void BounceLight::for_each_face_of(Source source, const Fn& fn) const {
-  if (source == kNothing) return;
-  if ((source & kSeveral) == 0) return fn(source - 1);
-  const Source place = source & ~kSeveral;
-  for (const Number from : several_[place % kParts][place / kParts].faces)
-    if (from != 0) fn(from - 1);
 }
 
 /// By counting, then filling from the ends.
@@ -620,35 +569,33 @@ void BounceLight::list_readers() {
   first_reader_.assign(faces_.size() + 1, 0);
   for (const std::array<Source, kLines>& sources : sources_)
     for (const Source source : sources)
-      for_each_face_of(source, [&](Number from) { ++first_reader_[from]; });
+      if (source != kNothing) ++first_reader_[source - 1];
   std::uint32_t sum = 0;
   for (std::uint32_t& first : first_reader_) first = sum += first;
   readers_.resize(sum);
   for (Number reader = 0; reader < sources_.size(); ++reader)
     for (const Source source : sources_[reader])
-      for_each_face_of(source, [&](Number from) { readers_[--first_reader_[from]] = reader; });
+      if (source != kNothing) readers_[--first_reader_[source - 1]] = reader;
 }
 
 void BounceLight::add_reader(Source source, Number reader) {
-  for_each_face_of(source, [&](Number from) {
-    std::vector<Number>& readers = more_readers_[from];
-    if (!readers.empty() && readers.back() == reader) return;
-    readers.push_back(reader);
-    ++more_count_;
-  });
+  if (source == kNothing) return;
+  std::vector<Number>& readers = more_readers_[source - 1];
+  if (!readers.empty() && readers.back() == reader) return;
+  readers.push_back(reader);
+  ++more_count_;
 }
 
 /// Whether a face receives at a step what has changed at the step before.
 bool BounceLight::comes_from(Number number, int step, const Marked& changed) const {
   const bool last = is_last(step);
-  const Source* source = sources_[number].data() + (last ? kFirstLines : 0);
-  bool any = false;
-  for (const Source* end = source + (last ? kLastLines : kFirstLines); source != end; ++source)
-    for_each_face_of(*source, [&](Number from) { any |= changed.has(from); });
-  return any;
+  const std::span<const Source> sources(sources_[number]);
+  return std::ranges::any_of(
+      last ? sources.last(kLastLines) : sources.first(kFirstLines),
+      [&](Source source) { return source != kNothing && changed.has(source - 1); });
 }
 
-std::vector<BounceLight::Changed> BounceLight::follow_changes(std::span<const SeenSky> seen,
+std::vector<BounceLight::Changed> BounceLight::follow_changes(const SeenSky& seen,
                                                               const LampLightMap& lamps) {
   list_readers();
   for (std::size_t slot = 0; slot < bodies_.size(); ++slot)

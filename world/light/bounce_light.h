@@ -15,6 +15,7 @@
 #include "world/light/glass_tints.h"
 #include "world/light/lamp_light.h"
 #include "world/light/lattice_lines.h"
+#include "world/light/seen_sky.h"
 #include "world/light/voxel_index.h"
 
 namespace skerry::world {
@@ -26,9 +27,6 @@ using FaceAlbedo = std::array<glm::vec3, 6>;
 inline float luminance(const glm::vec3& c) {
   return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
-
-/// Ways to the sky that a voxel sees: for each octant a bit a pattern.
-using SeenSky = std::array<std::uint16_t, kOctants>;
 
 /// Of what a face under level water would send out into the air without it, the share that gets
 /// there, if light falls evenly on the water: by Fresnel's, Snell's and Beer's laws for a wide
@@ -47,7 +45,7 @@ using KeyDirections = std::array<std::optional<glm::vec3>, 2>;
 /// smooth function of w: it is kept as harmonics, so that day and night move without any work here.
 /// Its colour is that of its mean. A face looks along half of the 64 lattice vectors of its
 /// hemisphere, its neighbours along the other half, and for all reflections but the last along a
-/// quarter. A line that does not end at the sky ends at the first voxel that it touches, and what
+/// quarter. A line that does not end at the sky ends at the first voxel that it comes to, and what
 /// comes from there is the light of the face that it enters through, from the air that it came by.
 /// Harmonics blur the edges of sun and shade, which do not move as smoothly as what is reflected of
 /// the sky: from a key direction, each face has what BodyRays say.
@@ -90,8 +88,8 @@ class BounceLight {
   int steps() const { return steps_; }
   static constexpr int kParts = 8;
   /// Follows the light. Steps go from 0 to steps() - 1; the parts of a step may be done at once,
-  /// each by one thread. @param seen by number of the voxel. @param lamps direct light.
-  void follow(int step, int part, std::span<const SeenSky> seen, const LampLightMap& lamps);
+  /// each by one thread. @param lamps direct light.
+  void follow(int step, int part, const SeenSky& seen, const LampLightMap& lamps);
   /// Share of the light on the ground below a plant that the plant takes, and sends its own for.
   static constexpr float kUnderPlant = 0.25f;
   /// After all steps: what a face receives that was reflected at least once. @param front the voxel
@@ -130,11 +128,11 @@ class BounceLight {
   bool set_face(IVec3 front, int direction, std::uint16_t block, bool plant);
   void remove_face(IVec3 front, int direction, bool plant);
 
-  /// What comes along a line, for set_line(): the faces at which it ends.
+  /// What comes along a line, for set_line(): 1 + number of the face at which it ends.
   using Source = std::uint32_t;
   static constexpr Source kNothing = 0;
   /// @param last as LatticeLines::end_of has it.
-  Source source_at(IVec3 last, std::size_t way) { return source_at(last, way, 0); }
+  Source source_at(IVec3 last, std::size_t way) const;
   /// Sets it for the faces before which a voxel is.
   void set_line(IVec3 voxel, std::size_t way, Source source);
   /// Looks along all lines of the faces before which a voxel is.
@@ -151,11 +149,9 @@ class BounceLight {
     int direction = 0;
   };
   /// Works out what has changed since follow(). @return faces that receive other light.
-  std::vector<Changed> follow_changes(std::span<const SeenSky> seen, const LampLightMap& lamps);
+  std::vector<Changed> follow_changes(const SeenSky& seen, const LampLightMap& lamps);
   /// Whether edits have left so much behind that it is time to begin anew.
-  bool is_worn() const {
-    return several_[0].size() > 2 * first_several_ + kSpare || more_count_ > kSpare;
-  }
+  bool is_worn() const { return more_count_ > kSpare; }
   /// Memory that is kept for edits.
   std::size_t bytes() const;
 
@@ -182,35 +178,24 @@ class BounceLight {
   static PackedLight packed(const Light& light);
   static Light unpacked(const PackedLight& light);
 
-  /// Where lines of several faces end at once.
-  struct Several {
-    std::array<Number, 3> faces{};  // 1 + number, 0: none
-    float share = 0.0f;
-  };
-  static constexpr Source kSeveral = 1u << 31;  // then part + kParts * place in its list
-
   Face* face_at(IVec3 front, int direction);
   Number number_of(IVec3 front, int direction) const;
   std::uint32_t first_of(const Face& face, std::uint32_t every) const;
   template <class Fn>
   void for_each_line(const Face& face, std::size_t quarter, std::size_t pattern,
                      const Fn& fn) const;
-  Source source_at(IVec3 last, std::size_t way, std::size_t part);
-  Number entered(IVec3 voxel, const LatticeLines::Touched& touched) const;
-  Source look(IVec3 from, int octant, std::size_t pattern, std::size_t part);
-  void look_along(Number number, const SeenSky& seen, std::size_t part);
-  Light lost_to_glass(std::size_t voxel, const Face& face, std::span<const SeenSky> seen) const;
-  Light direct_of(const Face& face, std::span<const SeenSky> seen, const LampLightMap& lamps) const;
+  Source look(IVec3 from, std::size_t way) const;
+  void look_along(Number number, const SeenSky& seen);
+  Light lost_to_glass(std::size_t voxel, const Face& face, const SeenSky& seen) const;
+  Light direct_of(const Face& face, const SeenSky& seen, const LampLightMap& lamps) const;
   template <class Fn>
   void for_each_sender(Number number, int step, const Fn& fn) const;
   Light gathered(Number number, int step) const;
   bool exists(Number number) const { return faces_[number].ground || faces_[number].plant; }
   void look_at_bodies(Number number);
-  PackedLight light_of(Number number, int step, std::span<const SeenSky> seen,
+  PackedLight light_of(Number number, int step, const SeenSky& seen,
                        const LampLightMap& lamps) const;
   bool comes_from(Number number, int step, const Marked& changed) const;
-  template <class Fn>
-  void for_each_face_of(Source source, const Fn& fn) const;
   void list_readers();
   void add_reader(Source source, Number reader);
   Light reflected(const Face& face, Light light) const;
@@ -241,7 +226,6 @@ class BounceLight {
   std::vector<Number> free_faces_;
   std::vector<Number> numbers_;  // 1 + of faces_, by voxel and direction; 0: none
   std::vector<std::array<Source, kLines>> sources_;  // by face: of first reflections, of the last
-  std::array<std::vector<Several>, kParts> several_;
   // Of each face those with a line to it, and some that had one: from `first_reader_` to that of
   // the next face; then what edits have added. Made when the first edit is followed.
   std::vector<std::uint32_t> first_reader_;
@@ -250,8 +234,7 @@ class BounceLight {
   std::size_t more_count_ = 0;
   std::array<std::vector<PackedLight>, kSteps> leaving_;  // by step; the last one's: received
   static constexpr std::size_t kSpare = 1'000'000;
-  std::size_t first_several_ = 0;  // in the first list, after follow()
-  Marked relit_, relooked_;        // faces whose direct light, whose lines have changed
+  Marked relit_, relooked_;  // faces whose direct light, whose lines have changed
 };
 
 }  // namespace skerry::world

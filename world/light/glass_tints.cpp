@@ -61,14 +61,12 @@ void GlassTints::add(Depth& depth, IVec3 voxel, int eighths, std::size_t way) co
 
 GlassTints::Depth GlassTints::depth_of_step(IVec3 from, std::size_t number) const {
   const LatticeLines::Way& way = lines_.way(number);
-  const bool stopped = lines_.stopped(from, number);
-  const int end = stopped ? lines_.stopping_group(from, number) : way.touched.back().group + 1;
+  const std::size_t count =
+      lines_.stopped(from, number) ? lines_.passed_before_stop(from, number) : way.passed.size();
   Depth depth(0);
   add(depth, from, way.own_eighths, number);
-  for (const LatticeLines::Touched& touched : way.touched) {
-    if (touched.group >= end) break;
-    if (touched.eighths != 0) add(depth, from + touched.offset, touched.eighths, number);
-  }
+  for (const LatticeLines::Passed& passed : std::span(way.passed).first(count))
+    if (passed.eighths != 0) add(depth, from + passed.offset, passed.eighths, number);
   return depth;
 }
 
@@ -81,28 +79,26 @@ GlassTints::Depth GlassTints::depth_from(IVec3 from, std::size_t way) const {
   return sum;
 }
 
-bool GlassTints::set(IVec3 voxel, std::size_t way, Depth depth) {
-  // A face before which there is glass lies at the far side of it, not in its middle.
-  add(depth, voxel, lines_.way(way).own_eighths, way);
+bool GlassTints::set(IVec3 voxel, std::size_t way, const Depth& depth) {
   const std::size_t number = wanted_.of(voxel);
-  Octant& octant = octants_[way / shared::kSkyPatternCount];
+  Fan& fan = fans_[way / shared::kSkyPatternCount];
   const auto pattern = static_cast<std::uint8_t>(way % shared::kSkyPatternCount);
-  if (number / 64 >= octant.has.size()) octant.has.resize(wanted_.size() / 64 + 1, 0);
-  std::uint64_t& word = octant.has[number / 64];
+  if (number / 64 >= fan.has.size()) fan.has.resize(wanted_.size() / 64 + 1, 0);
+  std::uint64_t& word = fan.has[number / 64];
   const std::uint64_t bit = std::uint64_t{1} << number % 64;
   if (is_clear(depth)) {
     if ((word & bit) == 0) return false;
-    const auto found = octant.lines.find(number);
+    const auto found = fan.lines.find(number);
     const bool was = std::erase_if(found->second,
                                    [&](const Tint& tint) { return tint.pattern == pattern; }) != 0;
     if (!found->second.empty()) return was;
-    octant.lines.erase(found);
+    fan.lines.erase(found);
     word &= ~bit;
     return was;
   }
   const Tint tint{pattern, glm::vec3(glm::exp(glm::dvec3(-depth) / kDepthSteps))};
   word |= bit;
-  Tints& tints = octant.lines[number];
+  Tints& tints = fan.lines[number];
   const auto place = std::ranges::lower_bound(tints, pattern, {}, &Tint::pattern);
   if (place == tints.end() || place->pattern != pattern) {
     tints.insert(place, tint);
@@ -113,21 +109,20 @@ bool GlassTints::set(IVec3 voxel, std::size_t way, Depth depth) {
   return other;
 }
 
-const GlassTints::Tints* GlassTints::find(std::size_t number, int octant) const {
-  const Octant& its = octants_[static_cast<std::size_t>(octant)];
+const GlassTints::Tints* GlassTints::find(std::size_t number, std::size_t fan) const {
+  const Fan& its = fans_[fan];
   return its.holds(number) ? &its.lines.at(number) : nullptr;
 }
 
 bool GlassTints::has(std::size_t number) const {
-  return any() &&
-         std::ranges::any_of(octants_, [&](const Octant& octant) { return octant.holds(number); });
+  return any() && std::ranges::any_of(fans_, [&](const Fan& fan) { return fan.holds(number); });
 }
 
-void GlassTints::look(int octant) {
+void GlassTints::look(std::size_t fan) {
   if (!any()) return;
   VoxelBits visited(air_.stained.voxels().low(), air_.stained.voxels().size(), false);
   for (std::size_t pattern = 0; pattern < shared::kSkyPatternCount; ++pattern)
-    look_along(LatticeLines::way_number(octant, pattern), visited);
+    look_along(LatticeLines::way_number(fan, pattern), visited);
 }
 
 /// From each voxel of glass backwards: who is on a line that passes it.
@@ -150,39 +145,38 @@ void GlassTints::look_along(std::size_t number, VoxelBits& visited) {
   };
   for_each_voxel(air_.stained.voxels(), [&](IVec3 glass) {
     walk(glass);
-    for (const LatticeLines::Touched& touched : way.touched)
-      if (touched.eighths != 0)
-        walk({glass.x - touched.offset.x, glass.y - touched.offset.y, glass.z - touched.offset.z});
+    for (const LatticeLines::Passed& passed : way.passed)
+      if (passed.eighths != 0)
+        walk({glass.x - passed.offset.x, glass.y - passed.offset.y, glass.z - passed.offset.z});
   });
   for (const IVec3& voxel : all) visited.set(voxel, false);
 }
 
 std::size_t GlassTints::bytes() const {
   std::size_t bytes = 0;
-  for (const Octant& octant : octants_) {
-    bytes += octant.has.size() * sizeof(std::uint64_t);
-    for (const auto& [number, tints] : octant.lines)
+  for (const Fan& fan : fans_) {
+    bytes += fan.has.size() * sizeof(std::uint64_t);
+    for (const auto& [number, tints] : fan.lines)
       bytes += sizeof(number) + sizeof(tints) + tints.capacity() * sizeof(Tint);
   }
   return bytes;
 }
 
 void GlassTints::move(std::size_t from, std::size_t to) {
-  for (Octant& octant : octants_) {
-    if (!octant.holds(from)) continue;
-    auto node = octant.lines.extract(from);
-    octant.has[from / 64] &= ~(std::uint64_t{1} << from % 64);
-    if (to / 64 >= octant.has.size()) octant.has.resize(to / 64 + 1, 0);
-    octant.has[to / 64] |= std::uint64_t{1} << to % 64;
+  for (Fan& fan : fans_) {
+    if (!fan.holds(from)) continue;
+    auto node = fan.lines.extract(from);
+    fan.has[from / 64] &= ~(std::uint64_t{1} << from % 64);
+    if (to / 64 >= fan.has.size()) fan.has.resize(to / 64 + 1, 0);
+    fan.has[to / 64] |= std::uint64_t{1} << to % 64;
     node.key() = to;
-    octant.lines.insert(std::move(node));
+    fan.lines.insert(std::move(node));
   }
 }
 
 void GlassTints::forget(std::size_t number) {
-  for (Octant& octant : octants_)
-    if (octant.lines.erase(number) != 0)
-      octant.has[number / 64] &= ~(std::uint64_t{1} << number % 64);
+  for (Fan& fan : fans_)
+    if (fan.lines.erase(number) != 0) fan.has[number / 64] &= ~(std::uint64_t{1} << number % 64);
 }
 
 }  // namespace skerry::world

@@ -25,7 +25,7 @@ class GlassTints {
     std::uint8_t pattern = 0;
     glm::vec3 left{1.0f};  ///< share of the light, 0..1
   };
-  using Tints = std::vector<Tint>;  ///< of an octant, ascending by pattern
+  using Tints = std::vector<Tint>;  ///< of a fan, ascending by pattern
   /// Optical depth, RGB, in 2^-20.
   using Depth = glm::i64vec3;
 
@@ -34,29 +34,29 @@ class GlassTints {
 
   /// Whether there is any glass.
   bool any() const { return !air_.stained.empty(); }
-  /// Looks along an octant's lines. Octants may be looked along at once, each by one thread.
-  void look(int octant);
-  /// Null: none of a voxel's lines of an octant passes glass.
-  const Tints* find(std::size_t number, int octant) const;
-  /// Whether a line of a voxel's passes glass in any octant.
+  /// Looks along a fan's lines. Fans may be looked along at once, each by one thread.
+  void look(std::size_t fan);
+  /// Null: none of a voxel's lines of a fan passes glass.
+  const Tints* find(std::size_t number, std::size_t fan) const;
+  /// Whether a line of a voxel's passes glass.
   bool has(std::size_t number) const;
   std::size_t bytes() const;
 
   // --- Edits ---
 
-  /// Of a line from the middle of a voxel on, up to its end.
+  /// Of a line from a voxel on, up to its end.
   Depth depth_from(IVec3 from, std::size_t way) const;
   /// Of a line's part once along its vector, up to what stops it there.
   Depth depth_of_step(IVec3 from, std::size_t way) const;
   /// @param depth depth_from() the voxel. @return whether that is other than it was.
-  bool set(IVec3 voxel, std::size_t way, Depth depth);
+  bool set(IVec3 voxel, std::size_t way, const Depth& depth);
   /// A voxel's number becomes another that has no lines here.
   void move(std::size_t from, std::size_t to);
   /// The voxel with that number is gone.
   void forget(std::size_t number);
 
  private:
-  struct Octant {
+  struct Fan {
     std::vector<std::uint64_t> has;  // a bit a number: it has lines here
     std::unordered_map<std::size_t, Tints> lines;
     bool holds(std::size_t number) const {
@@ -73,7 +73,7 @@ class GlassTints {
   const LatticeLines& lines_;
   const VoxelIndex& wanted_;
   std::vector<Depth> per_eighth_;  // by block and pattern; empty without glass
-  std::array<Octant, kOctants> octants_;
+  std::array<Fan, kFans> fans_;
 };
 
 /// What is left of light after a way through stained glass or water. @param blocks its length.

@@ -1,7 +1,6 @@
 #include "world/light/lattice_lines.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "world/light/face_records.h"
 
@@ -22,9 +21,9 @@ VoxelBits solid_of(const AirVolume& air) {
 
 LatticeLines::LatticeLines(const AirVolume& air) : air_(air), solid_(solid_of(air)) {
   ways_.reserve(kWays);
-  for (int octant = 0; octant < kOctants; ++octant)
+  for (std::size_t fan = 0; fan < kFans; ++fan)
     for (int pattern = 0; pattern < static_cast<int>(shared::kSkyPatternCount); ++pattern)
-      ways_.push_back(way_along(sky_direction(octant, pattern)));
+      ways_.push_back(way_along(sky_direction(octant_of(fan), pattern), axis_of(fan)));
 }
 
 void LatticeLines::changed(IVec3 voxel) {
@@ -32,49 +31,17 @@ void LatticeLines::changed(IVec3 voxel) {
                         (air_.has_leaves && (air_.leaves.at(voxel) || air_.plants.at(voxel))));
 }
 
-LatticeLines::Way LatticeLines::way_along(IVec3 vector) const {
-  struct Place {
-    int enter = 0, leave = 0, steps = 0;
-    IVec3 offset{};
-    auto order() const { return std::tuple(enter, leave, steps); }
-  };
-  const std::array<int, 3> n{std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)};
-  std::vector<IVec3> offsets = voxels_between(vector);
-  offsets.push_back(vector);
-  std::vector<Place> places;
-  for (const IVec3& o : offsets) {
-    const std::array<int, 3> at{std::abs(o.x), std::abs(o.y), std::abs(o.z)};
-    Place place{0, 8, at[0] + at[1] + at[2], o};
-    for (std::size_t a = 0; a < 3; ++a) {
-      place.enter = std::max(place.enter, (2 * at[a] - 1) * 4 / n[a]);
-      place.leave = std::min(place.leave, (2 * at[a] + 1) * 4 / n[a]);
-    }
-    places.push_back(place);
-  }
-  std::ranges::stable_sort(places, {}, &Place::order);
-  Way way{vector, {}, 4 / std::max({n[0], n[1], n[2]})};
-  int group = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (i != 0 && places[i].order() != places[i - 1].order()) ++group;
-    Touched touched{places[i].offset,
-                    solid_.bit_step(places[i].offset),
-                    group,
-                    places[i].leave - places[i].enter,
-                    {-1, -1, -1}};
-    // It can be entered from what the line touches before it, or from where the line begins.
-    std::size_t entries = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::array<int, 3> d{vector.x, vector.y, vector.z};
-      const int sign = d[static_cast<std::size_t>(axis)] > 0 ? 1 : -1;
-      const IVec3 from = places[i].offset + axis_vector(axis, -sign);
-      const bool passed =
-          from == IVec3{} ||
-          std::any_of(way.touched.begin(), way.touched.end(),
-                      [&](const Touched& t) { return t.group < group && t.offset == from; });
-      if (passed)
-        touched.entered[entries++] = static_cast<std::int8_t>(2 * axis + (sign > 0 ? 1 : 0));
-    }
-    way.touched.push_back(touched);
+LatticeLines::Way LatticeLines::way_along(IVec3 vector, int face_axis) const {
+  constexpr int kWhole = 8;  // eighths
+  const std::array<int, 3> d{vector.x, vector.y, vector.z};
+  const std::vector<LineVoxel> voxels = line_voxels(vector, face_axis);
+  Way way{vector, {}, voxels.front().entered};
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const LineVoxel& voxel = voxels[i];
+    const int left = i + 1 < voxels.size() ? voxels[i + 1].entered : kWhole;
+    const bool forward = d[static_cast<std::size_t>(voxel.axis)] > 0;
+    way.passed.push_back({voxel.offset, solid_.bit_step(voxel.offset), left - voxel.entered,
+                          2 * voxel.axis + (forward ? 1 : 0)});
   }
   return way;
 }
@@ -102,21 +69,21 @@ bool LatticeLines::stopped(IVec3 from, std::size_t number) const {
   const Way& way = ways_[number];
   const IVec3 low = solid_.low(), size = solid_.size();
   const int x = from.x - low.x, y = from.y - low.y;
-  const auto closed = [&](const Touched& t) { return !open(from + t.offset, number); };
+  const auto closed = [&](const Passed& p) { return !open(from + p.offset, number); };
   if (x < kLongest || y < kLongest || x >= size.x - kLongest || y >= size.y - kLongest)
-    return std::any_of(way.touched.begin(), way.touched.end(), closed);
+    return std::ranges::any_of(way.passed, closed);
   const std::ptrdiff_t at = solid_.bit_at(from);
   bool any = false;
-  for (const Touched& t : way.touched) any |= solid_.bit(at + t.step);
+  for (const Passed& p : way.passed) any |= solid_.bit(at + p.step);
   if (!any || !air_.has_leaves) return any;
-  return std::any_of(way.touched.begin(), way.touched.end(), closed);
+  return std::ranges::any_of(way.passed, closed);
 }
 
-int LatticeLines::stopping_group(IVec3 from, std::size_t number) const {
-  const std::vector<Touched>& touched = ways_[number].touched;
-  return std::ranges::find_if(touched,
-                              [&](const Touched& t) { return !open(from + t.offset, number); })
-      ->group;
+std::size_t LatticeLines::passed_before_stop(IVec3 from, std::size_t number) const {
+  const std::vector<Passed>& passed = ways_[number].passed;
+  const auto stop =
+      std::ranges::find_if(passed, [&](const Passed& p) { return !open(from + p.offset, number); });
+  return static_cast<std::size_t>(stop - passed.begin());
 }
 
 std::optional<IVec3> LatticeLines::end_of(IVec3 from, std::size_t way) const {

@@ -10,27 +10,26 @@
 
 namespace skerry::world {
 
-/// Straight lines through an island's voxels, from the middle of one along a lattice vector, over
-/// and over again, until they touch what is not open. Outside of the volume all is air.
+/// Straight lines through an island's voxels, from the middle of a face of one along a lattice
+/// vector, over and over again, until they come to what is not open (line_voxels). Outside of the
+/// volume all is air.
 class LatticeLines {
  public:
-  /// A voxel that a line touches on its way along a vector, the vector's end included.
-  struct Touched {
+  /// A voxel that a line passes on its way along a vector. @see line_voxels
+  struct Passed {
     IVec3 offset{};
     std::ptrdiff_t step = 0;  ///< between the numbers of their bits
-    int group = 0;            ///< those of a group are touched at once
-    int eighths = 0;          ///< of the vector that lie in the voxel; 0: an edge or a corner of it
-    /// Faces that the line can come in by, from what it has touched before; -1: no more.
-    std::array<std::int8_t, 3> entered{-1, -1, -1};
+    int eighths = 0;          ///< of the vector that lie in the voxel; 0: an edge of it
+    int entered = 0;          ///< direction of the face that the line comes in by
   };
   struct Way {
     IVec3 vector{};
-    std::vector<Touched> touched;  ///< in the order of the line
-    int own_eighths = 0;           ///< of the vector that lie in the voxel that it begins in
+    std::vector<Passed> passed;  ///< in the order of the line, the vector's end included
+    int own_eighths = 0;         ///< of the vector that lie in the voxel that it begins in
   };
-  static constexpr std::size_t kWays = kOctants * shared::kSkyPatternCount;
-  static constexpr std::size_t way_number(int octant, std::size_t pattern) {
-    return static_cast<std::size_t>(octant) * shared::kSkyPatternCount + pattern;
+  static constexpr std::size_t kWays = kFans * shared::kSkyPatternCount;
+  static constexpr std::size_t way_number(std::size_t fan, std::size_t pattern) {
+    return fan * shared::kSkyPatternCount + pattern;
   }
 
   /// @param air must outlive this.
@@ -43,15 +42,15 @@ class LatticeLines {
   bool is_opaque(IVec3 voxel) const { return air_.opaque.at(voxel); }
   /// Whether a line passes a voxel. Leaves stop half of the ways, plants a quarter.
   bool open(IVec3 voxel, std::size_t way) const;
-  /// Whether a line touches what is not open on its way once along the vector.
+  /// Whether a line comes to what is not open on its way once along the vector.
   bool stopped(IVec3 from, std::size_t way) const;
-  /// Group of the voxels that stop it there. @pre stopped(from, way)
-  int stopping_group(IVec3 from, std::size_t way) const;
+  /// How many voxels it passes before that. @pre stopped(from, way)
+  std::size_t passed_before_stop(IVec3 from, std::size_t way) const;
   /// The last voxel of a line from which it gets no further; none: it ends at the sky.
   std::optional<IVec3> end_of(IVec3 from, std::size_t way) const;
 
  private:
-  Way way_along(IVec3 vector) const;
+  Way way_along(IVec3 vector, int face_axis) const;
   const AirVolume& air_;
   VoxelBits solid_;  // opaque voxels, leaves and plants
   std::vector<Way> ways_;

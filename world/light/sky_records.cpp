@@ -40,12 +40,12 @@ using LobeShares = std::array<std::uint32_t, shared::kSkyLobes>;  // of 65280
 constexpr std::uint32_t kPartUnderPlant = 4;
 
 /// What a face's lobes see of the sky from a voxel.
-LobeShares lobes_from(const SeenSky& seen, const FaceAxes& axes) {
+LobeShares lobes_from(const SeenSky& seen, std::size_t voxel, const FaceAxes& axes) {
   LobeShares out{};
   for (std::size_t quarter = 0; quarter < 4; ++quarter) {
     const int octant = (axes.sign < 0 ? 1 << axes.own : 0) | (quarter & 1 ? 1 << axes.b : 0) |
                        (quarter & 2 ? 1 << axes.c : 0);
-    add_lobes_seen(axes.own, octant, seen[static_cast<std::size_t>(octant)], out);
+    add_lobes_seen(axes.own, octant, seen.of(voxel, fan_of(axes.own, octant)), out);
   }
   return out;
 }
@@ -68,12 +68,13 @@ Tinted tint_lobes(const SeenSky& seen, const GlassTints& tints, std::size_t voxe
   Tinted out;
   for (int octant = 0; octant < kOctants; ++octant) {
     if ((octant >> axes.own & 1) != (axes.sign < 0 ? 1 : 0)) continue;
-    const std::uint32_t bits = seen[static_cast<std::size_t>(octant)];
+    const std::size_t fan = fan_of(axes.own, octant);
+    const std::uint32_t bits = seen.of(voxel, fan);
     for (std::uint32_t left = bits; left != 0; left &= left - 1) {
       const auto weight = static_cast<float>(weights[std::countr_zero(left)]);
       out += {glm::vec3(weight), weight};
     }
-    const GlassTints::Tints* its = tints.find(voxel, octant);
+    const GlassTints::Tints* its = tints.find(voxel, fan);
     if (its == nullptr) continue;
     for (const GlassTints::Tint& tint : *its) {
       if ((bits >> tint.pattern & 1u) == 0) continue;
@@ -182,7 +183,7 @@ glm::uvec4 SkyTransfer::tint_corners(const Around& around, const FaceAxes& axes,
   for (std::size_t at = 0; at < tinted.size(); ++at) {
     if (!around.air[at]) continue;
     const std::size_t index = wanted_.of(around.voxels[at]);
-    all += tinted[at] = tint_lobes(seen_[index], tints_, index, axes, views[at]);
+    all += tinted[at] = tint_lobes(seen_, tints_, index, axes, views[at]);
   }
   glm::uvec4 out = white_tint();
   for (std::size_t corner = 0; corner < 4 && all.lobes > 0.0f; ++corner) {
@@ -209,7 +210,7 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
     const std::size_t index = wanted_.of(voxel);
     if (const LampLight* lit = lamp_light_.find(index))
       lamps[at] = (*lit)[static_cast<std::size_t>(face)];
-    views[at] = lobes_from(seen_[index], axes);
+    views[at] = lobes_from(seen_, index, axes);
     tinted |= tints_.has(index);
     if (!plant && face == 2 && air_.has_leaves && air_.plants.at(voxel))
       for (std::uint32_t& lobe : views[at]) lobe -= lobe / kPartUnderPlant;

@@ -2,12 +2,20 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <utility>
 
 #include "engine/core/check.h"
 #include "world/voxel/chunk.h"
 
 namespace skerry::world {
+
+/// A row of voxels of which a line passes the one at z + by.
+struct SkyTransfer::PassedRow {
+  const std::uint64_t* words = nullptr;
+  int by = 0;  ///< -4 to 4
+};
+
 namespace {
 
 // Share of a strong lamp's range, whose end is where its light is the least that counts, within
@@ -40,15 +48,25 @@ VoxelBits open_to(const AirVolume& air, int leaf_set) {
   return open;
 }
 
-/// A row, moved so that bit z has what stood at z + by.
-inline void and_row(std::uint64_t* into, const std::uint64_t* row, int by, int words) {
-  if (by == 0) {
-    for (int w = 0; w < words; ++w) into[w] &= row[w];
-  } else if (by > 0) {
-    for (int w = 0; w < words; ++w) into[w] &= row[w] >> by | row[w + 1] << (64 - by);
-  } else {
-    for (int w = 0; w < words; ++w) into[w] &= row[w] << -by | row[w - 1] >> (64 + by);
+/// Bit z: whether all rows pass a line there. The number of words is known to the compiler: most
+/// rows have few, which then stay in registers. @param rows `by` is 0 or more of all, or 0 or less.
+template <bool forward, std::size_t kWords, class Row>
+std::array<std::uint64_t, kWords> passed_by_all(std::span<const Row> rows, std::size_t word) {
+  std::array<std::uint64_t, kWords> out;
+  out.fill(~std::uint64_t{0});
+  for (const Row& row : rows) {
+    const std::uint64_t* words = row.words + word;
+    if (row.by == 0) {
+      for (std::size_t i = 0; i < kWords; ++i) out[i] &= words[i];
+    } else if (forward) {
+      for (std::size_t i = 0; i < kWords; ++i)
+        out[i] &= words[i] >> row.by | words[i + 1] << (64 - row.by);
+    } else {
+      for (std::size_t i = 0; i < kWords; ++i)
+        out[i] &= words[i] << -row.by | (words + i)[-1] >> (64 + row.by);
+    }
   }
+  return out;
 }
 
 }  // namespace
@@ -78,7 +96,7 @@ SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo,
   }
   wanted_ = VoxelIndex(std::move(wanted));
   most_numbers_ = wanted_.size() + wanted_.size() / 4 + kSpareNumbers;
-  seen_.assign(wanted_.size(), SeenSky{});
+  seen_ = SeenSky(wanted_.size());
   if (!albedo.empty())
     bounces_.emplace(chunks_, air_, lines_, wanted_, tints_, albedo, bounces, keys);
 }
@@ -89,45 +107,78 @@ void SkyTransfer::look(int octant) {
   const int sets = air_.has_leaves ? kLeafSets : 1;
   for (int set = 0; set < sets; ++set) {
     const VoxelBits open = open_to(air_, set);
-    for (int pattern = set; pattern < static_cast<int>(shared::kSkyPatternCount); pattern += sets)
-      look_along(octant, pattern, open, passed);
+    for (int axis = 0; axis < 3; ++axis)
+      for (int pattern = set; pattern < static_cast<int>(shared::kSkyPatternCount); pattern += sets)
+        look_along(fan_of(axis, octant), pattern, open, passed);
   }
-  tints_.look(octant);
+  for (int axis = 0; axis < 3; ++axis) tints_.look(fan_of(axis, octant));
 }
 
 // From the far end of the box on: what a voxel sees is what the voxel one vector further lets past,
 // if the line between them is clear. Rows at a time, 64 voxels a word. @param passed working
 // memory.
-void SkyTransfer::look_along(int octant, int pattern, const VoxelBits& open, VoxelBits& passed) {
-  const IVec3 d = sky_direction(octant, pattern);
-  const std::vector<IVec3> between = voxels_between(d);
+void SkyTransfer::look_along(std::size_t fan, int pattern, const VoxelBits& open,
+                             VoxelBits& passed) {
+  const IVec3 d = sky_direction(octant_of(fan), pattern);
+  const std::vector<LineVoxel> voxels = line_voxels(d, axis_of(fan));
+  const auto look = [&](std::span<const PassedRow> rows, int x, int y) {
+    if (d.z > 0) {
+      look_from_row<true>(fan, pattern, x, y, rows, open, passed);
+    } else {
+      look_from_row<false>(fan, pattern, x, y, rows, open, passed);
+    }
+  };
+  constexpr int kLongest = 4;  // component of a vector
   const IVec3 size = open.size();
-  const int words = open.row_words();
-  std::vector<std::uint64_t> sees(static_cast<std::size_t>(words));
-  const auto bit = static_cast<std::uint16_t>(1u << pattern);
+  std::vector<PassedRow> rows(voxels.size());
   for (int i = 0; i < size.y; ++i) {
     const int y = d.y > 0 ? size.y - 1 - i : i;
+    const bool y_within = y >= kLongest && y < size.y - kLongest;
+    bool ready = false;  // rows are those of the row before this one
     for (int x = 0; x < size.x; ++x) {
-      std::fill(sees.begin(), sees.end(), ~std::uint64_t{0});
-      if (open.has_row(x + d.x, y + d.y))
-        and_row(sees.data(), passed.row(x + d.x, y + d.y), d.z, words);
-      for (const IVec3& o : between)
-        if (open.has_row(x + o.x, y + o.y))
-          and_row(sees.data(), open.row(x + o.x, y + o.y), o.z, words);
-      std::uint64_t* row = passed.row(x, y);
-      const std::uint64_t* clear = open.row(x, y);
-      const std::uint64_t* wanted = wanted_.chosen().row(x, y);
-      const std::uint32_t* first = wanted_.row(x, y);
-      for (int w = 0; w < words; ++w) {
-        const std::uint64_t sky = sees[static_cast<std::size_t>(w)];
-        row[w] = sky & clear[w];
-        if ((sky & wanted[w]) == 0) continue;
-        std::size_t at = first[w];
-        for (std::uint64_t left = wanted[w]; left != 0; left &= left - 1, ++at)
-          if (sky >> std::countr_zero(left) & 1) seen_[at][static_cast<std::size_t>(octant)] |= bit;
+      if (y_within && x >= kLongest && x < size.x - kLongest && ready) {
+        for (PassedRow& row : rows) row.words += open.row_step();
+        look(rows, x, y);
+        continue;
       }
+      std::size_t count = 0;
+      for (const LineVoxel& voxel : voxels) {
+        const IVec3& o = voxel.offset;
+        const VoxelBits& of = &voxel == &voxels.back() ? passed : open;
+        if (of.has_row(x + o.x, y + o.y)) rows[count++] = {of.row(x + o.x, y + o.y), o.z};
+      }
+      ready = count == rows.size();
+      look(std::span(rows).first(count), x, y);
     }
   }
+}
+
+template <bool forward>
+void SkyTransfer::look_from_row(std::size_t fan, int pattern, int x, int y,
+                                std::span<const PassedRow> rows, const VoxelBits& open,
+                                VoxelBits& passed) {
+  std::uint64_t* row = passed.row(x, y);
+  const std::uint64_t* clear = open.row(x, y);
+  const std::uint64_t* wanted = wanted_.chosen().row(x, y);
+  const std::uint32_t* first = wanted_.row(x, y);
+  const auto look = [&]<std::size_t kWords>(std::size_t from) {
+    const auto sky = passed_by_all<forward, kWords>(rows, from);
+    for (std::size_t i = 0; i < kWords; ++i) {
+      const std::size_t w = from + i;
+      row[w] = sky[i] & clear[w];
+      if ((sky[i] & wanted[w]) == 0) continue;
+      std::size_t at = first[w];
+      for (std::uint64_t left = wanted[w]; left != 0; left &= left - 1, ++at)
+        seen_.of(at, fan) |=
+            static_cast<std::uint16_t>((sky[i] >> std::countr_zero(left) & 1) << pattern);
+    }
+  };
+  const auto words = static_cast<std::size_t>(open.row_words());
+  std::size_t w = 0;
+  for (; w + 4 <= words; w += 4) look.template operator()<4>(w);
+  if (words - w == 3) look.template operator()<3>(w);
+  if (words - w == 2) look.template operator()<2>(w);
+  if (words - w == 1) look.template operator()<1>(w);
 }
 
 std::vector<SkyTransfer::Lamp> SkyTransfer::lamps_of(const LightChunk& chunk, IVec3 at) {
@@ -162,8 +213,8 @@ void SkyTransfer::spread(const Lamp& lamp, LampLightMap& into) const {
 }
 
 std::size_t SkyTransfer::bytes() const {
-  return seen_.size() * sizeof(SeenSky) + lamp_light_.bytes() + all_lamps_.bytes() +
-         tints_.bytes() + (bounces_ ? bounces_->bytes() : 0);
+  return seen_.bytes() + lamp_light_.bytes() + all_lamps_.bytes() + tints_.bytes() +
+         (bounces_ ? bounces_->bytes() : 0);
 }
 
 void SkyTransfer::follow_bounces(int step, int part) {

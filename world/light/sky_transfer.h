@@ -21,12 +21,13 @@ namespace skerry::world {
 /// lamps give it, and what other faces reflect to it. A function of the island's voxels and of the
 /// key directions (BounceLight) alone, whatever the order of calls and the threads.
 ///
-/// A voxel sees the sky along one of 128 lattice vectors when the line to the next voxel along it,
-/// to the next but one and so on, touches air only. Such a line's voxels hang together by their
-/// faces: what is sealed off by blocks that meet at faces, edges or corners sees no sky at all.
-/// Leaves stop a ray in half of their voxels. Stained glass stops none, and takes of the light
-/// along each what Beer's law says. A face's corner has the mean of the voxels about it that are in
-/// front of the face and connected to each other by their faces.
+/// A face sees the sky along one of the 64 lattice vectors of its hemisphere when the line from its
+/// middle along it (line_voxels), over and over again, passes air only. Such a line's voxels hang
+/// together by their faces: what is sealed off by blocks that meet at faces, edges or corners sees
+/// no sky at all. Leaves stop a ray in half of their voxels. Stained glass stops none, and takes of
+/// the light along each what Beer's law says. A face's corner has the mean of the voxels about it
+/// that are in front of the face and connected to each other by their faces, each as if it were
+/// before a face.
 class SkyTransfer {
  public:
   /// @param albedo by block id; empty: no light is followed from face to face. It must outlive
@@ -67,8 +68,8 @@ class SkyTransfer {
   bool edit(LightChunks chunks);
 
   /// Of one voxel beside a face, for tests: a bit a pattern. @pre it is beside one.
-  std::uint16_t seen(IVec3 voxel, int octant) const {
-    return seen_[wanted_.of(voxel)][static_cast<std::size_t>(octant)];
+  std::uint16_t seen(IVec3 voxel, std::size_t fan) const {
+    return seen_.of(wanted_.of(voxel), fan);
   }
   bool asked(IVec3 voxel) const { return wanted_.has(voxel); }
 
@@ -90,7 +91,11 @@ class SkyTransfer {
   struct Around;
   class Edit;
   Around around(IVec3 front, const FaceAxes& axes) const;
-  void look_along(int octant, int pattern, const VoxelBits& open, VoxelBits& passed);
+  void look_along(std::size_t fan, int pattern, const VoxelBits& open, VoxelBits& passed);
+  struct PassedRow;
+  template <bool forward>
+  void look_from_row(std::size_t fan, int pattern, int x, int y, std::span<const PassedRow> rows,
+                     const VoxelBits& open, VoxelBits& passed);
   static std::vector<Lamp> lamps_of(const LightChunk& chunk, IVec3 at);
   /// Calls fn(voxel) for each whose view is kept and that a lamp can light.
   /// @param from, to of those alone that are in this box.
@@ -128,8 +133,8 @@ class SkyTransfer {
   LightChunks chunks_;
   AirVolume air_;
   LatticeLines lines_;
-  VoxelIndex wanted_;          // voxels whose view is kept
-  std::vector<SeenSky> seen_;  // by their numbers
+  VoxelIndex wanted_;  // voxels whose view is kept
+  SeenSky seen_;
   GlassTints tints_;
   LampLightMap lamp_light_;  // of weak lamps
   LampLightMap all_lamps_;   // whose light is followed further

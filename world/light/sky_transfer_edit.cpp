@@ -140,7 +140,7 @@ class SkyTransfer::Edit {
   void move(std::span<const VoxelIndex::Moved> moved) {
     of_.seen_.resize(of_.wanted_.size());
     for (const VoxelIndex::Moved& m : moved) {
-      of_.seen_[m.to] = of_.seen_[m.from];
+      of_.seen_.move(m.from, m.to);
       of_.lamp_light_.move(m.from, m.to);
       of_.all_lamps_.move(m.from, m.to);
       of_.tints_.move(m.from, m.to);
@@ -153,7 +153,7 @@ class SkyTransfer::Edit {
     if (!of_.lines_.inside(voxel)) return false;
     move(of_.wanted_.add(voxel));
     const std::size_t number = of_.wanted_.of(voxel);
-    of_.seen_[number] = {};
+    of_.seen_.forget(number);
     of_.tints_.forget(number);
     if (of_.bounces_) of_.bounces_->forget_voxel(number);
     wanted_.push_back(voxel);
@@ -213,10 +213,10 @@ class SkyTransfer::Edit {
   void look_again() {
     for (const IVec3& voxel : wanted_) {
       if (!of_.wanted_.has(voxel)) continue;
-      SeenSky& seen = of_.seen_[of_.wanted_.of(voxel)];
+      const std::size_t number = of_.wanted_.of(voxel);
       for (std::size_t way = 0; way < LatticeLines::kWays; ++way)
         if (!of_.lines_.end_of(voxel, way))
-          seen[way / shared::kSkyPatternCount] |=
+          of_.seen_.of(number, way / shared::kSkyPatternCount) |=
               static_cast<std::uint16_t>(1u << way % shared::kSkyPatternCount);
       tint_from(voxel);
       changed_at(voxel);
@@ -230,19 +230,17 @@ class SkyTransfer::Edit {
     if (!of_.bounces_) return;
     for (const IVec3& voxel : voxels_) of_.bounces_->shade_behind(voxel);
     for (const IVec3& voxel : wanted_) fronts_.add(of_.wanted_, voxel);
-    for (const IVec3& front : fronts_.voxels)
-      of_.bounces_->look_from(front, of_.seen_[of_.wanted_.of(front)]);
+    for (const IVec3& front : fronts_.voxels) of_.bounces_->look_from(front, of_.seen_);
   }
 
-  /// All lines that touch a voxel, from there backwards: what lies beyond it has not changed by it,
+  /// All lines that pass a voxel, from there backwards: what lies beyond it has not changed by it,
   /// and whoever sees to the same place sees the same.
   void look_through(IVec3 voxel) {
     for (std::size_t number = 0; number < LatticeLines::kWays; ++number) {
       const LatticeLines::Way& way = of_.lines_.way(number);
       const IVec3 back{-way.vector.x, -way.vector.y, -way.vector.z};
-      for (const LatticeLines::Touched& touched : way.touched) {
-        IVec3 from{voxel.x - touched.offset.x, voxel.y - touched.offset.y,
-                   voxel.z - touched.offset.z};
+      for (const LatticeLines::Passed& passed : way.passed) {
+        IVec3 from{voxel.x - passed.offset.x, voxel.y - passed.offset.y, voxel.z - passed.offset.z};
         if (!of_.lines_.inside(from)) continue;
         std::optional<Ending> ending;
         std::optional<GlassTints::Depth> glass;
@@ -271,7 +269,7 @@ class SkyTransfer::Edit {
   }
 
   void set_line(IVec3 voxel, std::size_t way, const Ending& ending) {
-    std::uint16_t& seen = of_.seen_[of_.wanted_.of(voxel)][way / shared::kSkyPatternCount];
+    std::uint16_t& seen = of_.seen_.of(of_.wanted_.of(voxel), way / shared::kSkyPatternCount);
     const auto bit = static_cast<std::uint16_t>(1u << way % shared::kSkyPatternCount);
     const std::uint16_t now = static_cast<std::uint16_t>(ending.sky ? seen | bit : seen & ~bit);
     if (std::exchange(seen, now) != now) changed_at(voxel);

@@ -199,10 +199,10 @@ struct Place {
   const char* name;
   Voxels stone;
   IVec3 low, high;             // its faces are looked at
-  double most_rms, most_bias;  // relative to the mean; seen: 0.09 and 0.04, 0.15 and 0.10, 0.44 and
-                               // 0.05, 0.18 and 0.03
-  // Of the sun alone, from a key direction; seen: 0.31 and 0.16, 0.07 and 0.05, 2.1 and 0.14 (next
-  // to none of it comes in by the window), 0.26 and 0.10.
+  double most_rms, most_bias;  // relative to the mean; seen: 0.11 and 0.03, 0.15 and 0.08, 0.49 and
+                               // 0.09, 0.11 and 0.02
+  // Of the sun alone, from a key direction; seen: 0.18 and 0.09, 0.07 and 0.04, 2.2 and 0.04 (next
+  // to none of it comes in by the window), 0.20 and 0.09.
   double most_of_sun, most_sun_bias;
 };
 std::vector<Place> places() {
@@ -210,16 +210,16 @@ std::vector<Place> places() {
   Voxels pit;
   fill(pit, {-12, 0, -12}, {12, 10, 12});
   clear(pit, {-4, 3, -4}, {4, 10, 4});
-  out.push_back({"pit", pit, {-5, 2, -5}, {5, 10, 5}, 0.13, 0.06, 0.36, 0.2});
+  out.push_back({"pit", pit, {-5, 2, -5}, {5, 10, 5}, 0.13, 0.04, 0.22, 0.12});
   Voxels canyon;
   fill(canyon, {-20, 0, -8}, {20, 12, 8});
   clear(canyon, {-20, 2, -2}, {20, 12, 3});
-  out.push_back({"canyon", canyon, {-6, 1, -3}, {6, 12, 4}, 0.2, 0.14, 0.1, 0.08});
+  out.push_back({"canyon", canyon, {-6, 1, -3}, {6, 12, 4}, 0.17, 0.1, 0.09, 0.06});
   Voxels room;
   fill(room, {-7, 0, -7}, {7, 9, 7});
   clear(room, {-6, 1, -6}, {6, 8, 6});
   clear(room, {6, 2, -3}, {7, 6, 3});
-  out.push_back({"room with a window", room, {-7, 0, -7}, {7, 9, 7}, 0.55, 0.09, 2.5, 0.2});
+  out.push_back({"room with a window", room, {-7, 0, -7}, {7, 9, 7}, 0.55, 0.1, 2.5, 0.1});
   Voxels heap;
   std::mt19937 random(5);
   fill(heap, {-14, 0, -14}, {14, 2, 14});
@@ -227,7 +227,7 @@ std::vector<Place> places() {
     const int x = static_cast<int>(random() % 20) - 10, z = static_cast<int>(random() % 20) - 10;
     fill(heap, {x, 2, z}, {x + 2, 3 + static_cast<int>(random() % 5), z + 2});
   }
-  out.push_back({"pillars", heap, {-8, 1, -8}, {8, 6, 8}, 0.24, 0.06, 0.3, 0.14});
+  out.push_back({"pillars", heap, {-8, 1, -8}, {8, 6, 8}, 0.13, 0.04, 0.25, 0.12});
   return out;
 }
 
@@ -315,7 +315,7 @@ TEST(BounceLight, FollowsASunFromAKeyDirectionMoreClosely) {
       sum += e.rms, sum_blurred += blurred.rms;
     }
   }
-  EXPECT_LT(sum, 0.75 * sum_blurred);  // seen: 0.64
+  EXPECT_LT(sum, 0.62 * sum_blurred);  // seen: 0.53
 }
 
 /// Shares of the open hemisphere's light, of pi, in the middle of a face: of the sky itself.
@@ -391,9 +391,9 @@ TEST(BounceLight, AClosedRoomHoldsItsLampsLightOnceForEachReflection) {
   for (int c = 0; c < 3; ++c) {
     const double rho = static_cast<double>(kRed[c]);
     const double expected = 1.0 + rho + rho * rho + rho * rho * rho;
-    // Faces gather more of near walls than they send to them: seen 1.06 and 1.11 times as much.
+    // Seen: 1.006 to 1.017 times as much.
     EXPECT_GT(all[c] / direct[c], 0.98 * expected) << c;
-    EXPECT_LT(all[c] / direct[c], 1.14 * expected) << c;
+    EXPECT_LT(all[c] / direct[c], 1.03 * expected) << c;
   }
 }
 

@@ -119,15 +119,20 @@ glm::dvec3 middle_of(IVec3 voxel) {
   return glm::dvec3(voxel.x, voxel.y, voxel.z) + 0.5;
 }
 
-/// What is left of light along a line, by its length in each voxel of glass; twice that in its own.
-glm::dvec3 left_along(const Glass& glass, IVec3 from, glm::dvec3 direction, double end) {
+/// What is left of light along a line, by its length in each voxel of glass.
+glm::dvec3 left_along(const Glass& glass, glm::dvec3 from, glm::dvec3 direction, double end) {
   glm::dvec3 depth(0.0);
   for (const auto& [voxel, block] : glass) {
-    const Stretch in = stretch_in(voxel, middle_of(from), direction);
-    const double length = std::max(0.0, std::min(in.to, end) - in.from);
-    depth += extinction_of(block) * (length * (voxel == from ? 2.0 : 1.0));
+    const Stretch in = stretch_in(voxel, from, direction);
+    depth += extinction_of(block) * std::max(0.0, std::min(in.to, end) - in.from);
   }
   return exponentials(-depth);
+}
+/// From the middle of a voxel, with twice the length in that one.
+glm::dvec3 left_along(const Glass& glass, IVec3 from, glm::dvec3 direction, double end) {
+  const Glass::const_iterator own = glass.find(from);
+  const glm::dvec3 left = left_along(glass, middle_of(from), direction, end);
+  return own == glass.end() ? left : left * left_along({*own}, middle_of(from), direction, end);
 }
 
 constexpr std::array<BlockId, 3> kColours{block::kRedGlass, block::kBlueGlass, block::kLimeGlass};
@@ -153,7 +158,7 @@ TEST(GlassTints, FollowBeersLawAlongEachLineUpToWhereItEnds) {
   }
   const VoxelIndex index(std::move(wanted));
   GlassTints tints(air, lines, index);
-  for (int octant = 0; octant < kOctants; ++octant) tints.look(octant);
+  for (std::size_t fan = 0; fan < kFans; ++fan) tints.look(fan);
   int passed = 0, clear = 0;
   for (int x = 0; x < 16; ++x)
     for (int y = 0; y < 16; ++y)
@@ -163,13 +168,15 @@ TEST(GlassTints, FollowBeersLawAlongEachLineUpToWhereItEnds) {
         for (std::size_t way = 0; way < LatticeLines::kWays; ++way) {
           const IVec3 v = lines.way(way).vector;
           const glm::dvec3 direction = glm::normalize(glm::dvec3(v.x, v.y, v.z));
-          double end = 1e300;  // where it touches stone, be it an edge
+          const std::size_t fan = way / 16;
+          const glm::dvec3 start = test::start_of_line(voxel, v, axis_of(fan));
+          double end = 1e300;
           for (const IVec3& block : stone) {
-            const Stretch in = stretch_in(block, middle_of(voxel), direction);
-            if (in.to > in.from - 1e-9) end = std::min(end, in.from);
+            const Stretch in = stretch_in(block, start, direction);
+            if (in.to > in.from) end = std::min(end, in.from);
           }
-          const glm::dvec3 right = left_along(glass, voxel, direction, end);
-          const GlassTints::Tints* all = tints.find(index.of(voxel), static_cast<int>(way / 16));
+          const glm::dvec3 right = left_along(glass, start, direction, end);
+          const GlassTints::Tints* all = tints.find(index.of(voxel), fan);
           glm::dvec3 found(1.0);
           if (all != nullptr)
             for (const GlassTints::Tint& tint : *all)

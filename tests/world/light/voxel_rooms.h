@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <set>
@@ -122,6 +124,24 @@ inline std::vector<std::uint32_t> record_of(const SkyTransfer::Skies& sky, IVec3
   if (keyed && chunk.parts.keyed) *keyed = chunk.texels[record + 4];
   for (int i = 0; i < 4 && tint != white_tint(); ++i) words.push_back(tint[i]);
   return words;
+}
+
+/// Where a line along a lattice vector begins that a face of an axis looks along: in the middle of
+/// the face that it enters the voxel by, and as little aside as it takes to cross planes one after
+/// the other: of axes a < b that of a first if the vector's signs along a and along the third axis
+/// are the same, the other way round if the sum of its parts' lengths is even.
+inline glm::dvec3 start_of_line(IVec3 voxel, IVec3 vector, int face_axis) {
+  const glm::ivec3 d(vector.x, vector.y, vector.z);
+  glm::dvec3 start(voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5);
+  start[face_axis] -= d[face_axis] > 0 ? 0.5 : -0.5;
+  glm::ivec3 earlier(1);  // than so many, itself among them
+  for (int a = 0; a < 3; ++a)
+    for (int b = a + 1; b < 3; ++b) {
+      const bool alike = d[a] * d[3 - a - b] > 0;
+      const bool even = (std::abs(d.x) + std::abs(d.y) + std::abs(d.z)) % 2 == 0;
+      ++earlier[alike != even ? a : b];
+    }
+  return start + 1e-6 * glm::dvec3(earlier * d);
 }
 
 }  // namespace skerry::world::test

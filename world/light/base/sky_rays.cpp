@@ -87,25 +87,34 @@ IVec3 sky_direction(int octant, int pattern) {
   return {octant & 1 ? -p.x : p.x, octant & 2 ? -p.y : p.y, octant & 4 ? -p.z : p.z};
 }
 
-std::vector<IVec3> voxels_between(IVec3 direction) {
+std::vector<LineVoxel> line_voxels(IVec3 direction, int face_axis) {
   const std::array<int, 3> d{direction.x, direction.y, direction.z};
   const std::array<int, 3> n{std::abs(d[0]), std::abs(d[1]), std::abs(d[2])};
-  std::vector<IVec3> out;
-  for (int x = 0; x <= n[0]; ++x) {
-    for (int y = 0; y <= n[1]; ++y) {
-      for (int z = 0; z <= n[2]; ++z) {
-        const std::array<int, 3> at{x, y, z};
-        if (at == std::array{0, 0, 0} || at == n) continue;
-        // When the line enters and leaves the voxel's slabs, in eighths of the way.
-        int enter = 0, leave = 8;
-        for (std::size_t a = 0; a < 3; ++a) {
-          enter = std::max(enter, (2 * at[a] - 1) * 4 / n[a]);
-          leave = std::min(leave, (2 * at[a] + 1) * 4 / n[a]);
-        }
-        if (enter > leave) continue;
-        out.push_back({d[0] < 0 ? -x : x, d[1] < 0 ? -y : y, d[2] < 0 ? -z : z});
-      }
+  const bool by_turns = (n[0] + n[1] + n[2]) % 2 == 0;
+  const auto crosses_first = [&](std::size_t a, std::size_t b) {  // a < b
+    return ((d[a] > 0) == (d[3 - a - b] > 0)) != by_turns;
+  };
+  struct Crossing {
+    int at = 0;
+    std::size_t axis = 0;
+  };
+  std::vector<Crossing> crossings;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < n[axis]; ++i) {
+      const int halves = static_cast<int>(axis) == face_axis ? 2 * i + 2 : 2 * i + 1;
+      crossings.push_back({halves * 4 / n[axis], axis});
     }
+  std::ranges::sort(crossings, [&](const Crossing& one, const Crossing& other) {
+    if (one.at != other.at || one.axis == other.axis) return one.at < other.at;
+    return one.axis < other.axis ? crosses_first(one.axis, other.axis)
+                                 : !crosses_first(other.axis, one.axis);
+  });
+  std::vector<LineVoxel> out;
+  std::array<int, 3> offset{};
+  for (const Crossing& crossing : crossings) {
+    offset[crossing.axis] += d[crossing.axis] > 0 ? 1 : -1;
+    out.push_back(
+        {{offset[0], offset[1], offset[2]}, static_cast<int>(crossing.axis), crossing.at});
   }
   return out;
 }

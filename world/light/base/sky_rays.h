@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,10 +15,34 @@ inline constexpr int kOctants = 8;
 /// The lattice vector of a pattern in an octant.
 IVec3 sky_direction(int octant, int pattern);
 
-/// Voxels between a voxel and the one a lattice vector further that the line between their centres
-/// touches, at an edge or a corner too, so that no line slips between two that meet at an edge.
-/// Both ends are left out. @pre each component divides 4.
-std::vector<IVec3> voxels_between(IVec3 direction);
+/// A voxel on a line.
+struct LineVoxel {
+  IVec3 offset{};   ///< from the voxel that the line begins in
+  int axis = 0;     ///< of the plane that the line enters it through
+  int entered = 0;  ///< after so many eighths of the vector
+};
+/// The voxels in order that a line passes on its way from the middle of a voxel's face along a
+/// lattice vector, the vector's end included. The face is the one of that axis that the line enters
+/// the voxel by.
+///
+/// Each voxel shares a face with the one before: no line slips between two that meet at an edge.
+/// Where it crosses planes at once it crosses one of them first, as if it ran a little aside, so
+/// that a block of which it touches an edge stops half of such lines: of axes a < b that of a if
+/// the vector points the same way, up or down, along a and along the third axis, and the other way
+/// round if the sum of its parts' lengths is even. @pre each component divides 4.
+std::vector<LineVoxel> line_voxels(IVec3 direction, int face_axis);
+
+/// Directions of an octant from the middles of faces of an axis.
+inline constexpr std::size_t kFans = 3 * kOctants;
+constexpr std::size_t fan_of(int axis, int octant) {
+  return static_cast<std::size_t>(axis * kOctants + octant);
+}
+constexpr int octant_of(std::size_t fan) {
+  return static_cast<int>(fan) % kOctants;
+}
+constexpr int axis_of(std::size_t fan) {
+  return static_cast<int>(fan) / kOctants;
+}
 
 /// Leaves stop half of the rays. Each pattern belongs to a leaf set, pattern % kLeafSets, and other
 /// voxels of leaves stop the rays of another set.
