@@ -46,16 +46,16 @@ class PassesOnGpu : public gpu::GpuTest {
     indices_ = buffer("quad indices", index.size() * 2,
                       VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     uploader_->write(indices_, 0, std::span<const std::uint16_t>(index));
-    textures_ = image({.name = "block textures",
-                       .format = VK_FORMAT_R8G8B8A8_UNORM,
+    coverage_ = image({.name = "block coverage",
+                       .format = VK_FORMAT_R16_SFLOAT,
                        .extent = {1, 1},
                        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
                        .array = true});
-    ASSERT_TRUE(uploader_->fill_image(textures_, std::vector<std::byte>(4)));
+    ASSERT_TRUE(uploader_->fill_image(coverage_, std::vector<std::byte>(2)));
   }
   void TearDown() override {
     tables_.clear();
-    textures_ = {};
+    coverage_ = {};
     indices_ = {};
     store_.reset();
     shadows_.reset();
@@ -252,7 +252,7 @@ class PassesOnGpu : public gpu::GpuTest {
     scene.indices = graph_->import(indices_);
     // Bound, though opaque blocks are drawn without.
     scene.materials = table("materials", std::vector<shared::Material>(shared::kMaxMaterials));
-    scene.block_textures = graph_->import(textures_);
+    scene.block_coverage = graph_->import(coverage_);
     scene.block_sampler = *device().sampler({VK_FILTER_NEAREST, VK_FILTER_NEAREST});
     scene.islands_per_view = static_cast<std::uint32_t>(input.islands.size());
     scene.size = size;
@@ -304,7 +304,7 @@ class PassesOnGpu : public gpu::GpuTest {
   MemoryBudget budget_{UINT64_MAX};
   std::unique_ptr<GeometryStore> store_;
   gpu::Buffer indices_;
-  gpu::Image textures_;
+  gpu::Image coverage_;
   std::vector<std::unique_ptr<gpu::Buffer>> tables_;
 };
 

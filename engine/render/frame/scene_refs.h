@@ -39,8 +39,9 @@ struct SceneRefs {
   gpu::BufferRef pixel_stats;    ///< shared::PixelStats
   gpu::BufferRef exposure;       ///< shared::Exposure
   gpu::ImageRef block_textures, sky_lut;
-  bool panorama = false;    ///< `sky_lut` is one
-  VkSampler sky_sampler{};  ///< of `sky_lut`
+  gpu::ImageRef block_coverage;  ///< see coverage_texels()
+  bool panorama = false;         ///< `sky_lut` is one
+  VkSampler sky_sampler{};       ///< of `sky_lut`
   /// One texel each, never written: bound where a program's choices leave a binding unread.
   gpu::ImageRef no_volume, no_words, no_depths, no_layers;
   VkSampler block_sampler{}, lut_sampler{}, point_sampler{};

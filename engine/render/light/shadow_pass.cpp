@@ -47,7 +47,7 @@ Shadows ShadowPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
           declare_draws(b, scene, draws);
           if (cutout_program.pipeline) {
             b.read(scene.materials, Use::kFragmentRead);
-            b.read(scene.block_textures, Use::kFragmentRead);
+            b.read(scene.block_coverage, Use::kFragmentRead);
           }
           maps = b.depth(maps, cascade.clear ? gpu::Load::cleared({}) : gpu::Load::keep(),
                          cascade.layer);

@@ -82,7 +82,7 @@ gpu::ImageRef smooth(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
           b.read(ref, Use::kComputeRead);
         b.read(words, Use::kComputeRead);
         b.read(depth, Use::kComputeSampled);
-        b.read(scene.block_textures, Use::kComputeSampled);
+        b.read(scene.block_coverage, Use::kComputeSampled);
         b.read(lists.dispatches, Use::kIndirect);
         b.read(lists.dispatches, Use::kComputeRead);
         lists.pixels = b.write(lists.pixels, Use::kComputeWrite);
@@ -97,7 +97,7 @@ gpu::ImageRef smooth(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
             gpu::storage<shared::kMaterialsBinding>(scene.materials),
             gpu::storage<shared::kSurfacesBinding>(words),
             gpu::sampled<shared::kDepthsBinding>(depth, scene.point_sampler),
-            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_coverage, scene.block_sampler),
             gpu::storage<shared::kPictureBinding>(picture),
             gpu::storage<shared::kTileDispatchesBinding>(lists.dispatches),
             gpu::storage<shared::kEdgePixelsBinding>(lists.pixels));

@@ -71,26 +71,37 @@ Result<void> FrameResources::create_indices(gpu::Uploader& uploader) {
   return {};
 }
 
-Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
+Result<void> FrameResources::create_textures(gpu::Uploader& uploader) {
   const BlockTextures textures = render::block_textures();
-  Result<gpu::Image> image =
-      device_->create_image({.name = "block textures",
-                             .format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                             .extent = {textures.edge, textures.edge},
-                             .mips = textures.mips,
-                             .layers = textures.layers,
-                             .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                             .array = true});
-  if (!image) return image.error();
-  block_textures_ = *std::move(image);
-  if (Result<void> ok = uploader.fill_image(block_textures_, linear_texels(textures)); !ok)
+  const auto create = [&](gpu::Image& into, const char* name, VkFormat format,
+                          const std::vector<std::byte>& texels) -> Result<void> {
+    Result<gpu::Image> image = device_->create_image(
+        {.name = name,
+         .format = format,
+         .extent = {textures.edge, textures.edge},
+         .mips = textures.mips,
+         .layers = textures.layers,
+         .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+         .array = true});
+    if (!image) return image.error();
+    into = *std::move(image);
+    return uploader.fill_image(into, texels);
+  };
+  if (Result<void> ok = create(block_textures_, "block textures", VK_FORMAT_R16G16B16A16_SFLOAT,
+                               linear_texels(textures));
+      !ok)
     return ok;
+  return create(block_coverage_, "block coverage", VK_FORMAT_R16_SFLOAT, coverage_texels(textures));
+}
 
-  image = device_->create_image({.name = "sky table",
-                                 .format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                 .extent = {shared::kSkyLutWidth, shared::kSkyLutHeight},
-                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                                          VK_IMAGE_USAGE_TRANSFER_DST_BIT});
+Result<void> FrameResources::create_images(gpu::Uploader& uploader) {
+  if (Result<void> ok = create_textures(uploader); !ok) return ok;
+  Result<gpu::Image> image =
+      device_->create_image({.name = "sky table",
+                             .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                             .extent = {shared::kSkyLutWidth, shared::kSkyLutHeight},
+                             .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                                      VK_IMAGE_USAGE_TRANSFER_DST_BIT});
   if (!image) return image.error();
   sky_lut_ = *std::move(image);
 
@@ -230,6 +241,7 @@ SceneRefs FrameResources::import(gpu::FrameGraph& graph, const FrameInput& input
   s.pixel_stats = graph.import(pixel_stats_);
   s.exposure = graph.import(exposure_);
   s.block_textures = graph.import(block_textures_);
+  s.block_coverage = graph.import(block_coverage_);
   s.panorama = bool{panorama_};
   s.sky_lut = graph.import(s.panorama ? panorama_ : sky_lut_);
   s.sky_sampler = s.panorama ? panorama_sampler_ : lut_sampler_;

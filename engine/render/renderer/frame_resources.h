@@ -59,13 +59,15 @@ class FrameResources {
   Result<void> upload(gpu::Uploader& uploader, gpu::Buffer& to, const char* name,
                       std::span<const T> values, ReadBy read_by = ReadBy::kBlocks);
   Result<void> create_indices(gpu::Uploader& uploader);
+  Result<void> create_textures(gpu::Uploader& uploader);
   Result<void> create_images(gpu::Uploader& uploader);
   Result<void> create_samplers();
 
   gpu::Device* device_;
   gpu::Buffer frame_, sky_, sky_scattering_, islands_, views_, light_islands_, materials_, indices_,
       pixel_stats_, exposure_, no_texels_, seen_, island_skies_;
-  gpu::Image block_textures_, sky_lut_, no_volume_, no_words_, no_depths_, no_layers_;
+  gpu::Image block_textures_, block_coverage_, sky_lut_, no_volume_, no_words_, no_depths_,
+      no_layers_;
   gpu::Image panorama_;  // none: sky_lut_ is the sky
   VkSampler block_sampler_{}, lut_sampler_{}, panorama_sampler_{}, point_sampler_{};
 };

@@ -22,6 +22,13 @@ constexpr std::uint32_t kMaxLayers =
 constexpr std::uint32_t kMaxEdge = 1024;
 constexpr std::size_t kTexelBytes = 4;
 
+/// Of a byte of coverage: the half that shaders see.
+std::array<std::uint16_t, 256> shares() {
+  std::array<std::uint16_t, 256> out;
+  for (std::size_t i = 0; i < 256; ++i) out[i] = glm::packHalf1x16(static_cast<float>(i) / 255.0f);
+  return out;
+}
+
 }  // namespace
 
 Result<BlockTextures> parse_block_textures(std::span<const std::byte> file) {
@@ -55,15 +62,25 @@ double linear_from_srgb(std::byte encoded) {
 }
 
 std::vector<std::byte> linear_texels(const BlockTextures& textures) {
-  std::array<std::uint16_t, 256> light, share;
-  for (std::size_t i = 0; i < 256; ++i) {
+  const std::array<std::uint16_t, 256> share = shares();
+  std::array<std::uint16_t, 256> light;
+  for (std::size_t i = 0; i < 256; ++i)
     light[i] = glm::packHalf1x16(static_cast<float>(linear_from_srgb(std::byte(i))));
-    share[i] = glm::packHalf1x16(static_cast<float>(i) / 255.0f);
-  }
   std::vector<std::byte> out(textures.texels.size() * sizeof(std::uint16_t));
   for (std::size_t i = 0; i < textures.texels.size(); ++i) {
     const auto byte = std::to_integer<std::size_t>(textures.texels[i]);
     const std::uint16_t half = i % kTexelBytes == 3 ? share[byte] : light[byte];
+    std::memcpy(&out[i * sizeof half], &half, sizeof half);
+  }
+  return out;
+}
+
+std::vector<std::byte> coverage_texels(const BlockTextures& textures) {
+  const std::array<std::uint16_t, 256> share = shares();
+  std::vector<std::byte> out(textures.texels.size() / kTexelBytes * sizeof(std::uint16_t));
+  for (std::size_t i = 0; i * kTexelBytes < textures.texels.size(); ++i) {
+    const std::uint16_t half =
+        share[std::to_integer<std::size_t>(textures.texels[i * kTexelBytes + kTexelBytes - 1])];
     std::memcpy(&out[i * sizeof half], &half, sizeof half);
   }
   return out;

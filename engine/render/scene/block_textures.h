@@ -38,6 +38,10 @@ Result<BlockTextures> parse_block_textures(std::span<const std::byte> file);
 /// filter alike.
 std::vector<std::byte> linear_texels(const BlockTextures& textures);
 
+/// Their coverage alone, one half each, equal to the last of linear_texels(): cut-outs ask for
+/// nothing else, and a CPU device filters all channels that a format has.
+std::vector<std::byte> coverage_texels(const BlockTextures& textures);
+
 /// The textures embedded in the program, kBlockTextureLayers layers.
 BlockTextures block_textures();
 

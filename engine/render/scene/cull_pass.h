@@ -1,4 +1,6 @@
 #pragma once
+#include <cstddef>
+
 #include "engine/core/result.h"
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/graph/bindings.h"
@@ -6,6 +8,7 @@
 #include "engine/render/frame/scene_refs.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/frame.h"
+#include "shaders/shared/geometry.h"
 
 namespace skerry::render {
 
@@ -76,11 +79,14 @@ inline auto draw_bindings(const SceneRefs& scene, const CulledDraws& draws, std:
   return std::tuple{drawn_from(scene, draws), gpu::constants(draw_push(scene, draws, view))};
 }
 
-/// What cutout.glsl declares.
+/// What cutout.glsl declares, which reads materials by word.
 inline auto cutout_bindings(const SceneRefs& scene) {
+  using shared::Material;
+  static_assert(sizeof(Material) == 13 * 4 && offsetof(Material, layer_side) == 0 &&
+                offsetof(Material, layer_top) == 4 && offsetof(Material, layer_bottom) == 8);
   return std::tuple{
       gpu::storage<shared::kMaterialsBinding>(scene.materials),
-      gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler)};
+      gpu::sampled<shared::kBlockTexturesBinding>(scene.block_coverage, scene.block_sampler)};
 }
 
 /// Records one list of one view into a pass with a program bound for that view.

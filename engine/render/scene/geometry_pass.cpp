@@ -107,7 +107,7 @@ void GeometryPass::add_pass(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
       [&](gpu::PassBuilder& b) {
         declare_draws(b, scene, draws);
         b.read(scene.materials, Use::kFragmentRead);
-        b.read(scene.block_textures, Use::kFragmentRead);
+        b.read(scene.block_coverage, Use::kFragmentRead);
         if (out.stored())
           for (const gpu::BufferRef ref : {scene.frame, scene.islands})
             b.read(ref, Use::kFragmentRead);

@@ -74,12 +74,15 @@ TranslucentPass::Layers TailPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pi
                              .color_formats = {kSumFormat, kSumFormat},
                              .cull = VK_CULL_MODE_NONE,
                              .blend = gpu::Blend::kSum})](gpu::Commands& c) {
-        gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
-                  gpu::texels<shared::kIslandsBinding>(scene.islands), cutout_bindings(scene),
-                  gpu::sampled<shared::kDepthsBinding>(opaque, scene.point_sampler),
-                  gpu::sampled<shared::kPreviousDepthsBinding>(last, scene.point_sampler),
-                  gpu::sampled<shared::kLayerSurfacesBinding>(words, scene.point_sampler),
-                  draw_bindings(scene, draws, 0));
+        gpu::bind(
+            c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
+            gpu::texels<shared::kIslandsBinding>(scene.islands),
+            gpu::storage<shared::kMaterialsBinding>(scene.materials),
+            gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
+            gpu::sampled<shared::kDepthsBinding>(opaque, scene.point_sampler),
+            gpu::sampled<shared::kPreviousDepthsBinding>(last, scene.point_sampler),
+            gpu::sampled<shared::kLayerSurfacesBinding>(words, scene.point_sampler),
+            draw_bindings(scene, draws, 0));
         draw_list(c, scene, draws, 0, DrawList::kTranslucent);
       });
   return layers;

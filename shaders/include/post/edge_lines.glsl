@@ -1,6 +1,6 @@
 // Lines at which surfaces end in the picture, and the shares of a pixel on their sides. Everything is relative to one pixel's centre, in pixels.
-// Needs before the include: common.glsl, `frame`, `island_at()`, `materials`, `block_textures`. Components are chosen, not indexed, and no arrays are
-// used: lavapipe keeps what is indexed in memory.
+// Needs before the include: common.glsl, `frame`, `island_at()`, `materials`, `block_textures` (their coverage). Components are chosen, not indexed,
+// and no arrays are used: lavapipe keeps what is indexed in memory.
 #ifndef SKERRY_EDGE_LINES_GLSL
 #define SKERRY_EDGE_LINES_GLSL
 #include "include/surface/surface.glsl"
@@ -137,7 +137,7 @@ float texture_share(SeenFace s, vec2 seen, int places) {
   for (int i = 0; i < places; ++i) {
     vec2 hit = middle + place.x * right + place.y * down, inside = abs(hit - 0.5), uv = vec2(hit.x, down_v * hit.y);
     if (plant) uv = plant_uv(uv);
-    float alpha = clamp((textureLod(block_textures, vec3(uv, float(layer)), level).a - 0.5) * steep + 0.5, 0.0, 1.0);
+    float alpha = clamp((textureLod(block_textures, vec3(uv, float(layer)), level).r - 0.5) * steep + 0.5, 0.0, 1.0);
     sum += plant && max(inside.x, inside.y) > 0.5 ? 0.0 : alpha;
     place = -place;  // across the centre
   }

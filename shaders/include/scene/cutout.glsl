@@ -1,11 +1,13 @@
-// Leaves and plants: surfaces where the texture's alpha covers the pixel. Needs before the include: common.glsl, `in_uv`,
+// Leaves and plants: surfaces where the texture covers the pixel. Needs before the include: common.glsl, `in_uv`,
 // `kFinestCoverage`.
 #ifndef SKERRY_CUTOUT_GLSL
 #define SKERRY_CUTOUT_GLSL
 #include "shared/bindings.h"
 
-layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
-layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;
+// Material[], of which one word is loaded: three, of which one is then selected, cost lavapipe three times as much.
+const uint kMaterialWords = 13u, kLayerSide = 0u, kLayerTop = 1u, kLayerBottom = 2u;
+layout(scalar, binding = kMaterialsBinding) uniform Materials { uint words[kMaxMaterials * kMaterialWords]; } materials;
+layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;  // their coverage: render::coverage_texels()
 
 // Level of a texture whose coordinates change from pixel to pixel as `uv` does. Drivers work theirs out each in their own way, by up to half a
 // level apart, and leaves would have other edges.
@@ -16,11 +18,10 @@ float texture_level(vec2 uv) {
 
 // @param whole the quad is opaque: its texture says nothing.
 void discard_uncovered(uint surface, bool whole) {
-  Material material = materials[surface_block(surface)];
   uint face = surface_face(surface);
-  uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
+  uint layer = materials.words[surface_block(surface) * kMaterialWords + (face == 2u ? kLayerTop : face == 3u ? kLayerBottom : kLayerSide)];
   vec2 uv = face >= 6u ? plant_uv(in_uv) : in_uv;
-  float alpha = textureLod(block_textures, vec3(uv, float(layer)), kFinestCoverage ? 0.0 : texture_level(uv)).a;
+  float alpha = textureLod(block_textures, vec3(uv, float(layer)), kFinestCoverage ? 0.0 : texture_level(uv)).r;
   // Leaves are seen from the front: whether their backs are drawn must not depend on which ranges of a section are culled.
   bool behind = face < kFaceCount && !gl_FrontFacing;
   if (behind || (!whole && alpha < 0.5)) discard;

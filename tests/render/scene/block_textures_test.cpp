@@ -381,6 +381,19 @@ TEST(BlockTextures, AreAllListedInTheirDocument) {
   }
 }
 
+TEST(BlockTextures, KeepTheirCoverageByItself) {
+  const BlockTextures textures = block_textures();
+  const std::vector<std::byte> all = linear_texels(textures), coverage = coverage_texels(textures);
+  ASSERT_EQ(coverage.size() * 4, all.size());
+  std::set<std::pair<std::byte, std::byte>> values;
+  for (std::size_t half = 0; half < coverage.size(); half += 2) {
+    values.emplace(coverage[half], coverage[half + 1]);
+    ASSERT_EQ(coverage[half], all[half * 4 + 6]) << half;
+    ASSERT_EQ(coverage[half + 1], all[half * 4 + 7]) << half;
+  }
+  EXPECT_GT(values.size(), 100u);  // mips have shares between none and all
+}
+
 TEST(BlockTextures, ReadsAFileOfAnotherSize) {
   const std::vector<std::byte> file = small_file();
   const auto parsed = parse_block_textures(file);
