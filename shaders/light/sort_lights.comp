@@ -42,6 +42,7 @@ layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 0u;  // of 
 
 #include "include/light/clusters.glsl"
 #include "include/scene/coverage.glsl"
+#include "include/scene/gather_depths.glsl"
 #include "include/scene/layers.glsl"
 
 void take(inout TileDepths t, float depth) {
@@ -51,21 +52,43 @@ void take(inout TileDepths t, float depth) {
   t.farthest = max(t.farthest, z);
 }
 
+float opaque_depth(float depth, uvec2 pixel) {
+  bool here = kDepth16 && imageLoad(surfaces, ivec2(min(pixel, grid.size - 1u))).r != 0u;
+  return here ? max(depth, 0.5 / 65535.0) : depth;
+}
+// Reverse depths of opaque surfaces at four pixels, 0 where there is none.
+vec4 opaque_depths(uvec2 low) {
+  vec4 d = depths_about(ivec2(low), grid.size);
+  return vec4(opaque_depth(d.x, low + uvec2(0u, 1u)), opaque_depth(d.y, low + 1u), opaque_depth(d.z, low + uvec2(1u, 0u)), opaque_depth(d.w, low));
+}
+
+uint slice_of(float depth) { return depth > 0.0 ? 1u << slice_at(view_distance(depth, grid.near_plane)) : 0u; }
+
 // One invocation a tile: no barriers, which lavapipe pays for dearly.
 void find_depths() {
   uvec2 count = (grid.size + kTileEdge - 1u) / kTileEdge;
   uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
   if (tile >= count.x * count.y) return;
-  ivec2 low = ivec2(tile % count.x, tile / count.x) * int(kTileEdge), last = ivec2(grid.size) - 1;
+  ivec2 low = ivec2(tile % count.x, tile / count.x) * int(kTileEdge);
   TileDepths t = TileDepths(grid.marked_slices, 1e30, 0.0);
   if (grid.marked_slices != 0u) t = TileDepths(grid.marked_slices, 0.0, slice_begin(uint(findMSB(grid.marked_slices)) + 1u));
-  for (int y = 0; y < int(kTileEdge); ++y) {
-    for (int x = 0; x < int(kTileEdge); ++x) {
-      ivec2 pixel = min(low + ivec2(x, y), last);
-      float depth = texelFetch(depths, pixel, 0).r;
-      if (kDepth16 && imageLoad(surfaces, pixel).r != 0u) depth = max(depth, 0.5 / 65535.0);
-      if (depth > 0.0) take(t, depth);
-    }
+  float nearest = 1e30, farthest = 0.0;
+  for (uint i = 0u; i < kTileEdge * kTileEdge / 4u; ++i) {
+    vec4 d = opaque_depths(uvec2(low) + 2u * uvec2(i % (kTileEdge / 2u), i / (kTileEdge / 2u)));
+    vec4 z = grid.near_plane / d;
+    nearest = min(nearest, least_of(mix(vec4(1e30), z, greaterThan(d, vec4(0.0)))));
+    farthest = max(farthest, most_of(mix(vec4(0.0), z, greaterThan(d, vec4(0.0)))));
+  }
+  t.nearest = min(t.nearest, nearest);
+  t.farthest = max(t.farthest, farthest);
+  uint first_slice = slice_at(nearest), last_slice = slice_at(farthest);
+  bool some = farthest > 0.0;
+  if (some) t.slices |= (1u << first_slice) | (1u << last_slice);
+  // A second look where others may lie between: a loop, which lavapipe leaves where no tile needs it.
+  uint gathers = some && last_slice > first_slice + 1u ? kTileEdge * kTileEdge / 4u : 0u;
+  for (uint i = 0u; i < gathers; ++i) {
+    vec4 d = opaque_depths(uvec2(low) + 2u * uvec2(i % (kTileEdge / 2u), i / (kTileEdge / 2u)));
+    t.slices |= slice_of(d.x) | slice_of(d.y) | slice_of(d.z) | slice_of(d.w);
   }
   if (kWaterLayers > 0u) {
     // A loop of its own, over what shows layers at all: lavapipe skips a loop that ends, never a branch.

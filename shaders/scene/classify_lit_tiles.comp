@@ -13,6 +13,7 @@ layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 #include "include/frame/islands.glsl"
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
+#include "include/scene/gather_depths.glsl"
 layout(binding = kShadowMapsBinding) uniform sampler2DArray shadow_maps;
 layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths;  // of the first layer
 
@@ -60,11 +61,14 @@ bool all_shaded(Part part, Cascade c) {
                all(lessThanEqual(size, ivec2(kMostTexels)));
   int texels = known ? size.x * size.y : 0;
   bool shaded = known && texels <= kMostTexels;
+  // Four texels at once, the last column and row perhaps twice. There are two at least, since the radius is more than 1.
+  vec2 per_texel = 1.0 / vec2(textureSize(shadow_maps, 0).xy);
   ivec2 at = first;
-  for (int i = 0; shaded && i < texels; ++i) {
-    shaded = texelFetch(shadow_maps, ivec3(at, int(c.layer)), 0).r > depth;
-    bool end_of_row = ++at.x > last.x;
-    at = end_of_row ? ivec2(first.x, at.y + 1) : at;
+  while (shaded && at.y <= last.y) {
+    vec2 middle = vec2(min(at, last - 1) + 1) * per_texel;
+    shaded = least_of(textureGather(shadow_maps, vec3(middle, float(c.layer)))) > depth;
+    at.x += 2;
+    at = at.x > last.x ? ivec2(first.x, at.y + 2) : at;
   }
   return shaded;
 }
@@ -79,20 +83,23 @@ void main() {
   bool in_water = kUnderWater && frame.camera_medium != 0u;
   uint faces = 0u, least_island = ~0u, most_island = 0u;
   float farthest = 1.0, nearest = 0.0;  // depths
-  for (int y = 0; y < int(kTileEdge); ++y) {
-    for (int x = 0; x < int(kTileEdge); ++x) {
-      ivec2 pixel = min(low + ivec2(x, y), last);
-      float depth = texelFetch(depths, pixel, 0).r;
-      uint word = imageLoad(surfaces, pixel).r;
-      bool here = is_covered(word, depth);
-      covered = covered || here;
-      open = open || !here;
-      if (kUnderWater) in_water = in_water || layer_depth_at(layer_depths, pixel, frame.layers_area) > 0.0;
-      faces |= here ? 1u << surface_face(word) : 0u;
-      least_island = min(least_island, here ? surface_island(word) : ~0u);
-      most_island = max(most_island, here ? surface_island(word) : 0u);
-      farthest = min(farthest, here ? depth : 1.0);
-      nearest = max(nearest, here ? depth : 0.0);
+  for (int y = 0; y < int(kTileEdge); y += 2) {
+    for (int x = 0; x < int(kTileEdge); x += 2) {
+      vec4 gathered = depths_about(low + ivec2(x, y), frame.size);
+      for (int i = 0; i < 4; ++i) {
+        ivec2 pixel = min(low + ivec2(x, y) + ivec2(i == 1 || i == 2, i < 2), last);
+        float depth = gathered[i];
+        uint word = imageLoad(surfaces, pixel).r;
+        bool here = is_covered(word, depth);
+        covered = covered || here;
+        open = open || !here;
+        if (kUnderWater) in_water = in_water || layer_depth_at(layer_depths, pixel, frame.layers_area) > 0.0;
+        faces |= here ? 1u << surface_face(word) : 0u;
+        least_island = min(least_island, here ? surface_island(word) : ~0u);
+        most_island = max(most_island, here ? surface_island(word) : 0u);
+        farthest = min(farthest, here ? depth : 1.0);
+        nearest = max(nearest, here ? depth : 0.0);
+      }
     }
   }
   if (open) list_tile(1u, at, count);

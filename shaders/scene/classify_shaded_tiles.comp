@@ -19,6 +19,7 @@ layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(scalar, binding = kSkyBinding) uniform Sky { SkyConstants sky; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
+#include "include/scene/gather_depths.glsl"
 layout(scalar, binding = kLayerTilesBinding) readonly buffer Layers { TileDispatch layers[]; };
 
 layout(constant_id = kTranslucentConstant) const bool kTranslucent = false;  // if not, something is bound in place of the layers
@@ -94,28 +95,34 @@ struct Square {
   bool plain;  // one plane of one block
 };
 
+// Whether four pixels' depths, gathered from `at` on, lie on the plane. @param plane its depth at the square's corner, and what is added for a pixel
+// beside and below.
+bool all_on_plane(vec4 depth, vec2 at, vec3 plane) {
+  vec4 there = plane.y * (at.x + vec4(0.0, 1.0, 1.0, 0.0)) + plane.z * (at.y + vec4(1.0, 1.0, 0.0, 0.0));
+  return all(lessThanEqual(abs(depth - plane.x - there), kOffPlane * (abs(plane.y) + abs(plane.z)) + kOffDepth * depth));
+}
+
 Square square_at(uvec2 corner) {
-  Square s = Square(false, false, all(lessThanEqual(corner + kSquareEdge, frame.size)));
-  uint first = 0u;
-  vec3 plane = vec3(0.0);  // its depth at the corner, and what is added for a pixel beside and below
+  ivec2 low = ivec2(corner);
+  vec4 d00 = depths_about(low, frame.size), d10 = depths_about(low + ivec2(2, 0), frame.size);
+  vec4 d01 = depths_about(low + ivec2(0, 2), frame.size), d11 = depths_about(low + 2, frame.size);
+  float least = min(min(least_of(d00), least_of(d10)), min(least_of(d01), least_of(d11)));
+  float most = max(max(most_of(d00), most_of(d10)), max(most_of(d01), most_of(d11)));
+  Square s = Square(most > 0.0, least <= 0.0, all(lessThanEqual(corner + kSquareEdge, frame.size)));
+  if (!kSquares && !kDepth16) return s;
+  if (kDepth16) s.covered = s.open = false;
+  uint first = imageLoad(surfaces, ivec2(min(corner, frame.size - 1u))).r;
   for (uint i = 0u; i < kSquareEdge * kSquareEdge; ++i) {
-    uvec2 at = uvec2(i % kSquareEdge, i / kSquareEdge);
-    ivec2 pixel = ivec2(min(corner + at, frame.size - 1u));
-    uint word = imageLoad(surfaces, pixel).r;
-    float depth = texelFetch(depths, pixel, 0).r;
-    bool here = is_covered(word, depth);
-    s.covered = s.covered || here;
-    s.open = s.open || !here;
-    if (!kSquares) continue;
-    if (i == 0u) first = word;
-    if (i == 0u) plane.x = depth;
-    if (i == 1u) plane.y = depth - plane.x;
-    if (i == kSquareEdge) plane.z = depth - plane.x;
-    float off = abs(depth - plane.x - dot(plane.yz, vec2(at)));
-    bool says_how = i < 2u || i == kSquareEdge;  // the plane lies
-    s.plain = s.plain && here && word == first && (says_how || off <= kOffPlane * (abs(plane.y) + abs(plane.z)) + kOffDepth * depth);
+    uint word = imageLoad(surfaces, ivec2(min(corner + uvec2(i % kSquareEdge, i / kSquareEdge), frame.size - 1u))).r;
+    s.plain = s.plain && word == first;
+    if (!kDepth16) continue;
+    s.covered = s.covered || word != 0u;
+    s.open = s.open || word == 0u;
   }
-  s.plain = s.plain && surface_face(first) < 6u;
+  vec3 plane = vec3(d00.w, d00.z - d00.w, d00.x - d00.w);
+  bool on = all_on_plane(d00, vec2(0.0), plane) && all_on_plane(d10, vec2(2.0, 0.0), plane);
+  on = on && all_on_plane(d01, vec2(0.0, 2.0), plane) && all_on_plane(d11, vec2(2.0), plane);
+  s.plain = s.plain && on && !s.open && surface_face(first) < 6u;
   return s;
 }
 
