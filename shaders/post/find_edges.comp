@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_basic : require
 // Lists the pixels at edges of surfaces. Reverse depth is linear in the picture on every plane, so that it bends at edges alone. A first step asks
 // some pixels of each tile whether they lie on one plane, and lists the tiles where they do not; a second one asks each pixel of those. A list's order
 // follows threads, what becomes of a pixel does not. docs/decisions/0043.
@@ -14,7 +15,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 layout(binding = kDepthsBinding) uniform sampler2D depths;
-layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatches[2]; };  // 0 tiles, 1 pixels
+layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatches[kEdgeDispatches]; };  // 0 tiles, 1 pixels, 2 a tile a group
 layout(scalar, binding = kTilesBinding) buffer Tiles { uint tiles[]; };                              // x | y << 16
 layout(scalar, binding = kEdgePixelsBinding) writeonly buffer Pixels { EdgePixel pixels[]; };
 layout(push_constant) uniform Push { float bend; } push;  // of reverse depth, as a share of it: less is a plane
@@ -41,7 +42,11 @@ void list_tiles() {
   uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
   uvec2 at = uvec2(tile % count.x, tile / count.x);
   bool wanted = tile < count.x * count.y && !is_plane(ivec2(at * kTileEdge), push.bend);
-  uint slot = first_slot(0u, uint(wanted), 64u / kEdgeParts);
+  uint slot = first_slot(0u, uint(wanted), 64u / kEdgeParts), last = subgroupMax(wanted ? slot + 1u : 0u);
+  if (subgroupElect() && last > 0u) {
+    atomicMax(dispatches[2].groups_x, min(last, kTileRow));
+    atomicMax(dispatches[2].groups_y, (last + kTileRow - 1u) / kTileRow);
+  }
   if (wanted) tiles[slot] = at.x | (at.y << 16);
 }
 

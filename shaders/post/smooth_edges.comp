@@ -18,7 +18,7 @@ layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;  // their coverage: render::coverage_texels()
 layout(binding = kPictureBinding, rgba8) uniform image2D picture;
-layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[2]; };  // 1: pixels
+layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[kEdgeDispatches]; };  // 1: pixels
 layout(scalar, binding = kEdgePixelsBinding) buffer Pixels { EdgePixel pixels[]; };
 
 layout(constant_id = kStoreConstant) const bool kStore = false;

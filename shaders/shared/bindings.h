@@ -114,31 +114,29 @@ SHARED_CONST uint kEdgePixelsBinding = 78u;
 
 // Pictures mixed with those of earlier frames.
 SHARED_CONST uint kFreshPictureBinding = 79u;  // of this frame alone
-SHARED_CONST uint kKeptSurfacesBinding = 80u;  // words of the last frame
-SHARED_CONST uint kKeptDepthsBinding = 81u;    // of the last frame
-SHARED_CONST uint kKeptPictureBinding = 82u;   // mixed, of the last frame
-SHARED_CONST uint kMixedPictureBinding = 83u;  // the same, of this one
-SHARED_CONST uint kMotionsBinding = 84u;       // texels of Motion[]
+SHARED_CONST uint kKeptPicturesBinding = 80u;  // of earlier frames, in slots
+SHARED_CONST uint kKeptKeysBinding = 81u;      // of what they show, see kept_key()
+SHARED_CONST uint kMotionsBinding = 82u;       // texels of Motion[]
 
 // What is hidden.
-SHARED_CONST uint kFarDepthsBinding = 85u;     // see kFineDepthEdge
-SHARED_CONST uint kSeenSectionsBinding = 86u;  // uint[section]: 1 if the last frame showed it
+SHARED_CONST uint kFarDepthsBinding = 83u;     // see kFineDepthEdge
+SHARED_CONST uint kSeenSectionsBinding = 84u;  // uint[section]: 1 if the last frame showed it
 
-SHARED_CONST uint kSkyScatteringBinding = 87u;  // SkyScatter[body][row][azimuth]
+SHARED_CONST uint kSkyScatteringBinding = 85u;  // SkyScatter[body][row][azimuth]
 
 // Behind the translucent layers, see sum_tail.frag.
-SHARED_CONST uint kTailDepthsBinding = 88u;
-SHARED_CONST uint kTailLightBinding = 89u;
+SHARED_CONST uint kTailDepthsBinding = 86u;
+SHARED_CONST uint kTailLightBinding = 87u;
 
-SHARED_CONST uint kIslandSkiesBinding = 90u;  // texels of each island's sky, see shared/indirect.h
+SHARED_CONST uint kIslandSkiesBinding = 88u;  // texels of each island's sky, see shared/indirect.h
 
-SHARED_CONST uint kTileShaftsBinding = 91u;  // TileShafts[], of 8x8 tiles
+SHARED_CONST uint kTileShaftsBinding = 89u;  // TileShafts[], of 8x8 tiles
 
-SHARED_CONST uint kBentLightBinding = 92u;  // see bend_rays.comp
+SHARED_CONST uint kBentLightBinding = 90u;  // see bend_rays.comp
 
-SHARED_CONST uint kGlassMapsBinding = 93u;  // see sum_glass.frag
+SHARED_CONST uint kGlassMapsBinding = 91u;  // see sum_glass.frag
 
-SHARED_CONST uint kLayerTilesBinding = 94u;  // TileDispatch[] of tiles that show water or glass
+SHARED_CONST uint kLayerTilesBinding = 92u;  // TileDispatch[] of tiles that show water or glass
 
 SHARED_END
 #endif

@@ -7,6 +7,10 @@ SHARED_BEGIN
 
 SHARED_CONST uint kEdgeParts = 2u;  // of a tile, four columns each: what an invocation looks at
 
+// Of tiles, as many as a group of that many parts takes; of pixels, 64 a group; of tiles, one a
+// group.
+SHARED_CONST uint kEdgeDispatches = 3u;
+
 // How far reverse depth may bend on a plane, of what it bends where two faces of a block meet that
 // are seen alike. Rounding bends it a hundred times less.
 SHARED_CONST float kBendOfPlane = 0.05f;

@@ -180,9 +180,10 @@ const std::vector<Layout>& cpp_layouts() {
              MEMBER(MarkerConstants, dug)),
       STRUCT(EdgePixel, MEMBER(EdgePixel, place), MEMBER(EdgePixel, colour)),
       STRUCT(Motion, MEMBER(Motion, x), MEMBER(Motion, y), MEMBER(Motion, w)),
-      STRUCT(TemporalStep, MEMBER(TemporalStep, changed_area), MEMBER(TemporalStep, last_sample),
-             MEMBER(TemporalStep, exposure_ratio), MEMBER(TemporalStep, bend),
-             MEMBER(TemporalStep, sky), MEMBER(TemporalStep, kept)),
+      STRUCT(TemporalStep, MEMBER(TemporalStep, changed_area),
+             MEMBER(TemporalStep, exposure_ratios), MEMBER(TemporalStep, bend),
+             MEMBER(TemporalStep, sky), MEMBER(TemporalStep, kept), MEMBER(TemporalStep, slot),
+             MEMBER(TemporalStep, still)),
       STRUCT(OverlayConstants, MEMBER(OverlayConstants, ndc_from_pixel)),
   };
 #undef STRUCT

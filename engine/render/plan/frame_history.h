@@ -3,19 +3,13 @@
 
 #include "engine/render/frame/frame_input.h"
 #include "engine/render/light/shadow_plan.h"
+#include "engine/render/plan/previous_frame.h"
 #include "engine/render/plan/temporal_history.h"
 #include "engine/render/sky/cloud_plan.h"
 #include "engine/render/sky/sky_model.h"
 #include "shaders/shared/geometry.h"
 
 namespace skerry::render {
-
-/// Where the camera and the islands were, for what is compared between frames.
-struct PreviousFrame {
-  Camera camera;
-  FixedPos anchor{};
-  SharedIslands islands;  ///< never null
-};
 
 /// The camera that culling has been frozen with.
 struct FrozenView {

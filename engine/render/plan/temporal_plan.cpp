@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
+#include <span>
 
 #include "engine/gpu/device/resource_desc.h"
 #include "engine/render/frame/frame_choices.h"
@@ -17,24 +18,12 @@
 namespace skerry::render {
 namespace {
 
-constexpr std::uint32_t kJitterFrames = 16;
-/// Of a pixel: textures are filtered for less, since frames that are mixed filter them, too.
-constexpr float kTexelFootprint = 0.5f;
 /// Of display light by exposure, both as logarithms, in the dark: ACES has 1.26 to 1.5.
 constexpr float kSlopeOfTone = 1.4f;
 constexpr float kMostExposureStep = 0.5f;  // stops between two frames that are mixed
 // Cosine of the angle that sun and moon may move between two frames that are mixed: 0.2 degrees,
 // more than half a minute of the day.
 constexpr double kLeastSameSky = 0.999994;
-
-double halton(std::uint32_t index, std::uint32_t base) {
-  double out = 0.0, share = 1.0;
-  for (; index != 0; index /= base) {
-    share /= base;
-    out += share * (index % base);
-  }
-  return out;
-}
 
 struct View {
   View(const Camera& camera, VkExtent2D pixels)
@@ -66,24 +55,34 @@ shared::Motion motion(const View& now, const View& before, const glm::dmat3& rot
   return {row(row_x), row(row_y), row(forward)};
 }
 
-std::vector<shared::Motion> motions(const FrameInput& input, const PreviousFrame& last,
-                                    VkExtent2D size) {
-  const View now(input.camera, size), before(last.camera, size);
-  std::vector<shared::Motion> out;
+/// Of each island and of the sky, to an earlier frame. @param out one each.
+void add_motions(const FrameInput& input, const PreviousFrame& then, VkExtent2D size,
+                 std::span<shared::Motion> out) {
+  const View now(input.camera, size), before(then.camera, size);
   for (std::size_t i = 0; i < input.islands.size(); ++i) {
-    if (i >= last.islands->size()) {
-      out.emplace_back();  // it was not there
-      continue;
-    }
-    const IslandPlacement &here = input.islands[i], &there = (*last.islands)[i];
+    if (i >= then.islands->size()) continue;  // it was not there
+    const IslandPlacement &here = input.islands[i], &there = (*then.islands)[i];
     const glm::dmat3 rotation =
         glm::mat3_cast(there.rotation) * glm::transpose(glm::mat3_cast(here.rotation));
-    const glm::dvec3 shift = blocks_between(there.origin, last.camera.position) -
+    const glm::dvec3 shift = blocks_between(there.origin, then.camera.position) -
                              rotation * blocks_between(here.origin, input.camera.position);
-    out.push_back(motion(now, before, rotation, shift));
+    out[i] = motion(now, before, rotation, shift);
   }
-  out.push_back(motion(now, before, glm::dmat3(1.0), glm::dvec3(0.0)));
-  return out;
+  out[input.islands.size()] = motion(now, before, glm::dmat3(1.0), glm::dvec3(0.0));
+}
+
+bool same_view(const Camera& a, const Camera& b) {
+  return a.position == b.position && a.yaw_deg == b.yaw_deg && a.pitch_deg == b.pitch_deg &&
+         a.fov_deg == b.fov_deg;
+}
+
+/// Whether nothing has moved between the two.
+bool is_still(const FrameInput& input, const PreviousFrame& then) {
+  return same_view(input.camera, then.camera) && input.islands.size() == then.islands->size() &&
+         std::ranges::equal(input.islands, *then.islands,
+                            [](const IslandPlacement& a, const IslandPlacement& b) {
+                              return a.origin == b.origin && a.rotation == b.rotation;
+                            });
 }
 
 /// Equal but for what moves while one plays.
@@ -96,15 +95,14 @@ bool same_sky(const Celestial& a, const Celestial& b) {
 bool is_of_use(const TemporalHistory& last, const TemporalHistory& next, std::uint64_t generation) {
   return last.generation == generation && gpu::same_size(last.drawn, next.drawn) &&
          last.settings == next.settings && same_sky(last.sky, next.sky) &&
-         std::abs(last.exposure_ev - next.exposure_ev) <= kMostExposureStep;
+         std::abs(last.views[0].exposure_ev - next.views[0].exposure_ev) <= kMostExposureStep;
 }
 
 }  // namespace
 
 glm::vec2 temporal_jitter(std::uint32_t frame) {
-  const std::uint32_t index = frame % kJitterFrames;
-  const auto centred = [](double at) { return static_cast<float>(at < 0.5 ? at : at - 1.0); };
-  return {centred(halton(index, 2)), centred(halton(index, 3))};
+  const std::uint32_t slot = frame % shared::kMixedFrames;
+  return glm::vec2(shared::jitter_x(slot), shared::jitter_y(slot)) / 8.0f;
 }
 
 std::optional<TemporalPlan> plan_temporal(const FrameInput& input, const RenderSettings& settings,
@@ -114,34 +112,44 @@ std::optional<TemporalPlan> plan_temporal(const FrameInput& input, const RenderS
   TemporalPlan plan;
   const VkExtent2D drawn{tables.constants.size.x, tables.constants.size.y};
   plan.next = {.generation = 0,
-               .geometry_version = facts.changes->version(),
                .frames = 1,
                .drawn = drawn,
                .settings = settings,
                .sky = input.sky,
-               .exposure_ev = *input.exposure_ev};
+               .views = {{facts.changes->version(), *input.exposure_ev, {}}}};
   plan.step.bend =
       shared::kBendOfPlane * tables.constants.pixel_to_ndc.y * glm::length(tables.constants.ray_up);
-  plan.step.sky = static_cast<std::uint32_t>(input.islands.size());
-  plan.motions.resize(input.islands.size() + 1);
+  const std::size_t movers = input.islands.size() + 1;
+  plan.step.sky = static_cast<std::uint32_t>(movers - 1);
+  plan.motions.resize(shared::kMixedFrames * movers);
+  std::ranges::fill(plan.step.exposure_ratios, 1.0f);
   const std::optional<TemporalHistory>& last = history.temporal;
   if (!last || !history.previous || !is_of_use(*last, plan.next, facts.kept_generation))
     return plan;
   plan.frame = last->frames;
   plan.next.frames = last->frames + 1;
-  plan.jitter = temporal_jitter(plan.frame);
-  plan.motions = motions(input, *history.previous, drawn);
-  plan.step.kept = 1;
-  plan.step.last_sample = 0.5f + temporal_jitter(last->frames - 1);
-  plan.step.exposure_ratio = std::exp2(kSlopeOfTone * (last->exposure_ev - plan.next.exposure_ev));
-  plan.step.changed_area = changed_area(facts, tables, last->geometry_version);
+  std::vector<KeptView> views = last->views;
+  views[0].seen = *history.previous;
+  plan.step.slot = plan.frame % shared::kMixedFrames;
+  for (std::uint32_t i = 0; i < views.size(); ++i) {
+    const std::uint32_t slot = (plan.frame - 1 - i) % shared::kMixedFrames;
+    add_motions(input, views[i].seen, drawn,
+                std::span(plan.motions).subspan(slot * movers, movers));
+    plan.step.kept |= 1u << slot;
+    if (is_still(input, views[i].seen)) plan.step.still |= 1u << slot;
+    if (i == 0 && plan.step.still != 0) plan.jitter = temporal_jitter(plan.frame);
+    plan.step.exposure_ratios[slot] =
+        std::exp2(kSlopeOfTone * (views[i].exposure_ev - *input.exposure_ev));
+  }
+  plan.step.changed_area = changed_area(facts, tables, views.back().geometry_version);
+  if (views.size() == shared::kMixedFrames - 1) views.pop_back();
+  plan.next.views.insert(plan.next.views.end(), views.begin(), views.end());
   return plan;
 }
 
 void jitter_view(FrameTables& tables, glm::vec2 jitter) {
   shared::FrameConstants& frame = tables.constants;
   frame.sample_in_pixel += jitter;
-  frame.texel_footprint *= kTexelFootprint;
   // What is sampled to the right of the centre is drawn to the left.
   glm::mat4& clip = tables.matrices[0];
   for (int column = 0; column < 3; ++column) {

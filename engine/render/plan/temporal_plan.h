@@ -19,13 +19,13 @@ struct FrameHistory;
 struct TemporalPlan {
   std::uint32_t frame = 0;  ///< since the history began: 0 has none
   glm::vec2 jitter{0.0f};   ///< of the sampled place, from the pixels' centres [pixels]
-  std::vector<shared::Motion> motions{};  ///< one an island, and the sky's
+  std::vector<shared::Motion> motions{};  ///< a slot: one an island, and the sky's
   shared::TemporalStep step{};
   TemporalHistory next{};
 };
 
-/// Pixels' places sampled by the frames of a history, in turn: the first 16 points of Halton's
-/// sequence to the bases 2 and 3, about the pixel's centre, which comes first.
+/// Pixels' places sampled at rest by the frames of a history, in turn, from the pixel's centre,
+/// which comes first [pixels]. Where something moves all frames sample the centre.
 glm::vec2 temporal_jitter(std::uint32_t frame);
 
 /// @param tables before the jitter. @return none: the frame is not mixed with others.

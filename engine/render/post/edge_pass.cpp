@@ -16,16 +16,11 @@ namespace {
 
 using gpu::Use;
 
-struct EdgeLists {
-  gpu::BufferRef dispatches;  ///< shared::TileDispatch of tiles, then of pixels in groups of 64
-  gpu::BufferRef tiles;       ///< x | y << 16
-  gpu::BufferRef pixels;      ///< shared::EdgePixel[]
-};
-
 EdgeLists make_lists(gpu::FrameGraph& graph, VkExtent2D size) {
   EdgeLists out;
-  out.dispatches = graph.create(gpu::BufferDesc{"edge dispatches", 2 * sizeof(shared::TileDispatch),
-                                                0, gpu::Memory::kDevice});
+  out.dispatches = graph.create(
+      gpu::BufferDesc{"edge dispatches", shared::kEdgeDispatches * sizeof(shared::TileDispatch), 0,
+                      gpu::Memory::kDevice});
   out.tiles = graph.create(
       gpu::BufferDesc{"edge tiles", std::uint64_t{tile_count(size)} * 4, 0, gpu::Memory::kDevice});
   out.pixels = graph.create(gpu::BufferDesc{
@@ -35,7 +30,7 @@ EdgeLists make_lists(gpu::FrameGraph& graph, VkExtent2D size) {
       "find_edges_clear",
       [&](gpu::PassBuilder& b) { out.dispatches = b.write(out.dispatches, Use::kTransferWrite); },
       [dispatches = out.dispatches](gpu::Commands& c) {
-        for (std::uint64_t list = 0; list < 2; ++list)
+        for (std::uint64_t list = 0; list < shared::kEdgeDispatches; ++list)
           clear_dispatch(c, dispatches, list * sizeof(shared::TileDispatch));
       });
   return out;
@@ -108,9 +103,9 @@ gpu::ImageRef smooth(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const Sc
 
 }  // namespace
 
-Developed EdgePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                        const Geometry& geometry, Developed developed,
-                        const shared::FrameConstants& frame) {
+SmoothEdges EdgePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
+                          const Geometry& geometry, Developed developed,
+                          const shared::FrameConstants& frame) {
   const float pixel = frame.pixel_to_ndc.y * glm::length(frame.ray_up);
   EdgeLists lists = make_lists(graph, scene.size);
   for (const bool every_pixel : {false, true})
@@ -119,7 +114,7 @@ Developed EdgePass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const
   gpu::ImageRef picture = developed.picture();
   for (const bool store : {false, true})
     picture = smooth(graph, pipelines, scene, geometry, picture, lists, store);
-  return Developed(picture);
+  return {Developed(picture), lists};
 }
 
 }  // namespace skerry::render

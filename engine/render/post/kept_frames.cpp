@@ -7,34 +7,25 @@
 namespace skerry::render {
 
 Result<void> KeptFrames::ensure(VkExtent2D size) {
-  if (frames_[1].mixed && gpu::same_size(frames_[1].mixed.desc().extent, size)) return {};
+  if (keys_ && gpu::same_size(size_, size)) return {};
   ++generation_;
-  frames_ = {};
-  const auto make = [&](gpu::Image& image, const char* name, VkFormat format,
-                        VkImageUsageFlags usage) -> Result<void> {
+  pictures_ = {};
+  keys_ = {};
+  const VkExtent2D slots{size.width * shared::kKeptColumns,
+                         size.height * (shared::kMixedFrames / shared::kKeptColumns)};
+  const auto make = [&](gpu::Image& image, const char* name) -> Result<void> {
     Result<gpu::Image> made = device_->create_image(
         {.name = name,
-         .format = format,
-         .extent = size,
-         .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+         .format = VK_FORMAT_R32_UINT,
+         .extent = slots,
+         .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
     if (!made) return made.error();
     image = *std::move(made);
     return {};
   };
-  for (Frame& frame : frames_) {
-    if (Result<void> ok = make(frame.surfaces, "kept surfaces", VK_FORMAT_R32_UINT,
-                               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT);
-        !ok)
-      return ok;
-    if (Result<void> ok = make(frame.depth, "kept depth", VK_FORMAT_D32_SFLOAT,
-                               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-        !ok)
-      return ok;
-    if (Result<void> ok = make(frame.mixed, "mixed picture", VK_FORMAT_R16G16B16A16_SFLOAT,
-                               VK_IMAGE_USAGE_STORAGE_BIT);
-        !ok)
-      return ok;
-  }
+  if (Result<void> ok = make(pictures_, "kept pictures"); !ok) return ok;
+  if (Result<void> ok = make(keys_, "kept keys"); !ok) return ok;
+  size_ = size;
   return {};
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -11,29 +10,27 @@
 
 namespace skerry::render {
 
-/// What a frame of `aa=temporal` leaves to the next one. Nothing is made before the first.
+/// What frames of `aa=temporal` leave to the next ones. Nothing is made before the first.
 class KeptFrames {
  public:
   explicit KeptFrames(gpu::Device& device) : device_(&device) {}
 
-  struct Frame {
-    gpu::Image surfaces;  ///< R32_UINT, words of the G-buffer
-    gpu::Image depth;     ///< D32, reverse-Z
-    gpu::Image mixed;     ///< RGBA16F: light of the display, and see mix_frames.comp
-  };
   /// Makes the images unless they have their size already. Errors: out of memory.
   Result<void> ensure(VkExtent2D size);
   /// Queues a frame's motions. Errors: out of memory.
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Motion> motions);
-  /// Two take turns. @pre ensure()
-  Frame& of(std::uint32_t frame) { return frames_[frame % 2]; }
+  /// Pictures, RGBA8 as R32_UINT, in slots of the frames' size. @pre ensure()
+  gpu::Image& pictures() { return pictures_; }
+  /// Which surfaces they show, R32_UINT, see kept_key(). @pre ensure()
+  gpu::Image& keys() { return keys_; }
   gpu::Buffer& motions() { return motions_; }
   /// Grows whenever images are made anew.
   std::uint64_t generation() const { return generation_; }
 
  private:
   gpu::Device* device_;
-  std::array<Frame, 2> frames_;
+  VkExtent2D size_{};  // of a slot
+  gpu::Image pictures_, keys_;
   gpu::Buffer motions_;  // texels, room for every island
   std::uint64_t generation_ = 0;
 };

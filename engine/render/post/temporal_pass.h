@@ -4,13 +4,14 @@
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/plan/temporal_plan.h"
+#include "engine/render/post/edge_pass.h"
 #include "engine/render/post/kept_frames.h"
 
 namespace skerry::render {
 
-/// The picture of this frame mixed with those before (`aa=temporal`): each pixel finds by the exact
-/// motion of what it shows where that was in the last frame, and takes over what was mixed there of
-/// the same surfaces. docs/decisions/0048.
+/// The picture of this frame mixed with those before (`aa=temporal`): each pixel at an edge finds
+/// by the exact motion of what it shows where that was in earlier frames, and what they showed
+/// there of the same surfaces. docs/decisions/0088.
 struct TemporalPass {
   struct In {
     const TemporalPlan& plan;
@@ -20,7 +21,7 @@ struct TemporalPass {
     bool clouds;                ///< some are in view
   };
   static Developed add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                       const Geometry& geometry, Developed fresh, const In& in);
+                       const Geometry& geometry, SmoothEdges fresh, const In& in);
 };
 
 }  // namespace skerry::render

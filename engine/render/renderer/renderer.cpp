@@ -321,7 +321,8 @@ void Renderer::State::advance(FramePlan& plan) {
   if (plan.clouds) history.clouds.light_generation = made.light_generation;
   if (!history.temporal) return;
   history.temporal->generation = kept.generation();
-  history.temporal->geometry_version = std::min(history.temporal->geometry_version, shown_version);
+  KeptView& last = history.temporal->views[0];
+  last.geometry_version = std::min(last.geometry_version, shown_version);
 }
 
 void Renderer::State::take_report(std::uint32_t slot_index) {

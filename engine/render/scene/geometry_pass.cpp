@@ -73,10 +73,8 @@ Geometry GeometryPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   const GBufferStore& store = in.store;
   Geometry out;
   out.store_ = store;
-  out.surfaces_ = in.kept.surfaces ? in.kept.surfaces
-                                   : target(graph, "surfaces", VK_FORMAT_R32_UINT, scene.size);
-  out.depth_ =
-      in.kept.depth ? in.kept.depth : target(graph, "depth", depth_format(store.depth), scene.size);
+  out.surfaces_ = target(graph, "surfaces", VK_FORMAT_R32_UINT, scene.size);
+  out.depth_ = target(graph, "depth", depth_format(store.depth), scene.size);
   out.normals_ = target(graph, "normals", normal_format(store.normal), scene.size);
   out.positions_ = target(graph, "positions", position_format(store.position), scene.size);
   add_pass(graph, pipelines, scene, draws, in, false, out);

@@ -8,10 +8,6 @@ namespace skerry::render {
 /// pixel. Position comes back from the depth, the exact normal from word and island, albedo from
 /// position and block textures (docs/decisions/0002).
 struct GeometryPass {
-  /// What the frame after this one reads.
-  struct Kept {
-    gpu::ImageRef surfaces, depth;
-  };
   struct In {
     const GBufferStore& store;  ///< what is written besides the word, see gbuffer_formats.h
     bool cutouts = true;        ///< false leaves the pass's alpha-tested half out
@@ -20,7 +16,6 @@ struct GeometryPass {
     /// nothing of them where a block is smaller than a sample.
     bool finest_coverage = false;
     bool clear_words = false;  ///< for who reads them without depth; with 16 bits of depth they are
-    Kept kept{};               ///< drawn to instead of images of the frame; or empty
   };
   static Geometry add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                       const CulledDraws& draws, const In& in);

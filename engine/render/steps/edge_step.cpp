@@ -9,7 +9,7 @@ namespace skerry::render {
 namespace {
 
 const char* needs_smooth_edges(const FramePlan& plan) {
-  if (plan.settings.aa != Antialiasing::kEdge) return "aa=off";
+  if (plan.settings.aa == Antialiasing::kOff) return "aa=off";
   if (const char* why = needs_lit_surfaces(plan)) return why;
   if (samples_per_edge(plan.settings) > 1) return "aa.samples smooths the edges";
   // Planes of surfaces are then known to blocks alone.
@@ -28,17 +28,19 @@ const char* needs_mixing(const FramePlan& plan) {
 FrameStep smooth_edges_step() {
   return {{{needs_smooth_edges, {"find_edge_tiles", "find_edges", "smooth_edges", "store_edges"}}},
           [](FrameAssembly& f) {
-            f.developed = EdgePass::add(f.graph, f.pipelines, f.scene, *f.geometry,
-                                        *std::move(f.developed), f.plan.tables.constants);
+            SmoothEdges smooth = EdgePass::add(f.graph, f.pipelines, f.scene, *f.geometry,
+                                               *std::move(f.developed), f.plan.tables.constants);
+            f.developed = std::move(smooth.picture);
+            f.edges = smooth.lists;
           }};
 }
 
 FrameStep mix_frames_step() {
   return {
-      {{needs_mixing, {"find_mixed_tiles", "mix_planes", "mix_edges"}}}, [](FrameAssembly& f) {
+      {{needs_mixing, {"mix_at_rest", "mix_edges"}}}, [](FrameAssembly& f) {
         const bool clouds = f.plan.clouds && f.plan.clouds->in_view;
         f.developed = TemporalPass::add(
-            f.graph, f.pipelines, f.scene, *f.geometry, *std::move(f.developed),
+            f.graph, f.pipelines, f.scene, *f.geometry, {*std::move(f.developed), *f.edges},
             {*f.plan.temporal, f.owners.kept, f.owners.picture.image(), f.layers.depth[0], clouds});
       }};
 }

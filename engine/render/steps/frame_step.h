@@ -8,6 +8,7 @@
 #include "engine/render/plan/frame_plan.h"
 #include "engine/render/post/bloom_pass.h"
 #include "engine/render/post/capture.h"
+#include "engine/render/post/edge_pass.h"
 #include "engine/render/post/kept_frames.h"
 #include "engine/render/post/meter_pass.h"
 #include "engine/render/post/picture.h"
@@ -46,6 +47,7 @@ struct FrameAssembly {
   Metered metered{};
   std::optional<Bloom> bloom{};
   std::optional<Developed> developed{};
+  std::optional<EdgeLists> edges{};  ///< of aa=edge and temporal
 
   const ClusteredLights* lights_or_null() const { return lights ? &*lights : nullptr; }
 };

@@ -14,18 +14,12 @@ CullIn cull_in(const FrameAssembly& f) {
 }
 
 GeometryPass::In geometry_in(FrameAssembly& f) {
-  GeometryPass::Kept kept;
-  if (f.plan.temporal) {
-    KeptFrames::Frame& now = f.owners.kept.of(f.plan.temporal->frame);
-    kept = {f.graph.import(now.surfaces), f.graph.import(now.depth)};
-  }
   const FrameContents& contents = f.plan.contents;
   // One program of those that leave pixels out, whether or not there are leaves among them.
   const bool cutouts = contents.cutouts_in_view[0] ||
                        (contents.blended && !f.plan.settings.leave_out.has(Feature::kCutouts));
-  return {f.plan.settings.gbuffer, cutouts,
-          contents.blended,        samples_per_edge(f.plan.settings) > 1 || f.plan.temporal,
-          f.plan.input.capture,    kept};
+  return {f.plan.settings.gbuffer, cutouts, contents.blended,
+          samples_per_edge(f.plan.settings) > 1 || f.plan.temporal, f.plan.input.capture};
 }
 
 const char* needs_revealed(const FramePlan& plan) {

@@ -9,6 +9,9 @@
 #define Linear vec3
 float at(Linear value, vec2 place) { return value.x + dot(value.yz, place); }
 
+// The pixel's middle, seen from the place that is sampled, which is what is meant by its centre elsewhere here.
+#define kCentre (0.5 - frame.sample_in_pixel)
+
 // One axis of a lattice, as the pixel sees it: x the eye, y the ray through the pixel's centre, z and w what is added to it a pixel to the right and
 // down. What is seen at inverse distance i lies at x + y / i.
 #define Axis vec4
@@ -54,7 +57,7 @@ SeenFace face_at(vec2 offset, float depth, uint word, Sight sight, bool here) {
 float positive_share(Linear value) {
   vec2 slope = abs(value.yz);
   slope = max(slope, vec2(1e-4 * max(slope.x, slope.y) + 1e-20));
-  float scale = 1.0 / max(slope.x, slope.y), d = value.x * scale;
+  float scale = 1.0 / max(slope.x, slope.y), d = at(value, kCentre) * scale;
   slope *= scale;
   float wide = 0.5 * (slope.x + slope.y), narrow = 0.5 * abs(slope.x - slope.y);
   vec4 r = max(vec4(d + wide, d + narrow, d - narrow, d - wide), vec4(0.0));
@@ -135,7 +138,7 @@ float texture_share(SeenFace s, vec2 seen, int places) {
   vec2 place = vec2(-0.125, 0.25);
   float sum = 0.0;
   for (int i = 0; i < places; ++i) {
-    vec2 hit = middle + place.x * right + place.y * down, inside = abs(hit - 0.5), uv = vec2(hit.x, down_v * hit.y);
+    vec2 asked = place + kCentre, hit = middle + asked.x * right + asked.y * down, inside = abs(hit - 0.5), uv = vec2(hit.x, down_v * hit.y);
     if (plant) uv = plant_uv(uv);
     float alpha = clamp((textureLod(block_textures, vec3(uv, float(layer)), level).r - 0.5) * steep + 0.5, 0.0, 1.0);
     sum += plant && max(inside.x, inside.y) > 0.5 ? 0.0 : alpha;
