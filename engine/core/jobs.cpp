@@ -55,6 +55,12 @@ std::atomic<int> living{0};
 
 }  // namespace
 
+int threads_beside_frames() {
+  constexpr int kFew = 8;
+  const int cores = tbb::info::default_concurrency();
+  return cores < kFew ? cores : cores - cores / 4;
+}
+
 struct Jobs::Impl {
   explicit Impl(int threads)
       : control(tbb::global_control::max_allowed_parallelism, allowed_parallelism(threads)),

@@ -3,6 +3,11 @@
 
 namespace skerry {
 
+/// How many threads work beside frames if none are asked for: one a core, from 8 cores on three
+/// quarters of them. Where all cores are busy, a frame's threads and the driver's wait for one by
+/// milliseconds.
+int threads_beside_frames();
+
 /// Worker threads for everything that may run beside the frame. Wraps one TBB arena.
 class Jobs {
  public:

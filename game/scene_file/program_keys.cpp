@@ -184,7 +184,8 @@ constexpr SettingKey kProgramKeys[] = {
        return s.memory_budget_mib ? std::to_string(*s.memory_budget_mib) : std::string("auto");
      }},
     {"jobs.threads", "0 to 256",
-     "Worker threads; 0 takes one a core. The picture does not depend on it.",
+     "Worker threads; 0 takes one a core, from 8 cores on three quarters of them. The picture does "
+     "not depend on it.",
      [](std::string_view t, Settings& s) {
        return into(parse_integer(t, "jobs.threads", 0, 256), s.jobs_threads);
      },

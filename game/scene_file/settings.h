@@ -81,7 +81,7 @@ struct Settings {
   UploadMode upload_path = UploadMode::kUpdate;
   std::uint64_t upload_budget_bytes = 8u << 20;    ///< a frame, 65536 .. 2^30
   std::optional<std::uint32_t> memory_budget_mib;  ///< for the world, 8 .. 2^20; none: by device
-  std::uint32_t jobs_threads = 0;                  ///< 0: one a core; .. 256
+  std::uint32_t jobs_threads = 0;                  ///< 0: threads_beside_frames(); .. 256
   FrameSettings frames;
   SoundSettings sound;
   UiSettings ui;

@@ -102,7 +102,8 @@ SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> 
       cache_(cache),
       world_(std::move(world)),
       picture_rows_(options.size.height) {
-  jobs_ = std::make_unique<Jobs>(static_cast<int>(settings_.jobs_threads));
+  const auto asked = static_cast<int>(settings_.jobs_threads);
+  jobs_ = std::make_unique<Jobs>(asked != 0 ? asked : threads_beside_frames());
   streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
   if (options.camera) {
     start_camera_.position = fixed(options.camera->position);
