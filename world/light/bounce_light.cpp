@@ -26,13 +26,9 @@ struct Hemisphere {
 };
 
 Hemisphere hemisphere_of(int face) {
-  const FaceAxes axes(face);
   Hemisphere out;
-  for (int quarter = 0; quarter < 4; ++quarter)
-    out.fans[static_cast<std::size_t>(quarter)] =
-        fan_of(axes.own, (axes.sign < 0 ? 1 << axes.own : 0) | (quarter & 1 ? 1 << axes.b : 0) |
-                             (quarter & 2 ? 1 << axes.c : 0));
-  const LobeWeights& weights = lobe_weights(axes.own);
+  out.fans = fans_of_face(face);
+  const LobeWeights& weights = lobe_weights(face / 2);
   float sum = 0.0f;
   for (std::size_t k = 0; k < out.weight.size(); ++k)
     sum += out.weight[k] = static_cast<float>(weights[k]);

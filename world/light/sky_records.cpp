@@ -40,13 +40,10 @@ using LobeShares = std::array<std::uint32_t, shared::kSkyLobes>;  // of 65280
 constexpr std::uint32_t kPartUnderPlant = 4;
 
 /// What a face's lobes see of the sky from a voxel.
-LobeShares lobes_from(const SeenSky& seen, std::size_t voxel, const FaceAxes& axes) {
+LobeShares lobes_from(const SeenSky& seen, std::size_t voxel, int face) {
   LobeShares out{};
-  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-    const int octant = (axes.sign < 0 ? 1 << axes.own : 0) | (quarter & 1 ? 1 << axes.b : 0) |
-                       (quarter & 2 ? 1 << axes.c : 0);
-    add_lobes_seen(axes.own, octant, seen.of(voxel, fan_of(axes.own, octant)), out);
-  }
+  for (const std::size_t fan : fans_of_face(face))
+    add_lobes_seen(axis_of(fan), octant_of(fan), seen.of(voxel, fan), out);
   return out;
 }
 
@@ -62,13 +59,11 @@ struct Tinted {
 };
 
 /// Takes from the lobes what glass takes of the colour that it takes least of.
-Tinted tint_lobes(const SeenSky& seen, const GlassTints& tints, std::size_t voxel,
-                  const FaceAxes& axes, LobeShares& lobes) {
-  const LobeWeights& weights = lobe_weights(axes.own);
+Tinted tint_lobes(const SeenSky& seen, const GlassTints& tints, std::size_t voxel, int face,
+                  LobeShares& lobes) {
+  const LobeWeights& weights = lobe_weights(face / 2);
   Tinted out;
-  for (int octant = 0; octant < kOctants; ++octant) {
-    if ((octant >> axes.own & 1) != (axes.sign < 0 ? 1 : 0)) continue;
-    const std::size_t fan = fan_of(axes.own, octant);
+  for (const std::size_t fan : fans_of_face(face)) {
     const std::uint32_t bits = seen.of(voxel, fan);
     for (std::uint32_t left = bits; left != 0; left &= left - 1) {
       const auto weight = static_cast<float>(weights[std::countr_zero(left)]);
@@ -82,7 +77,7 @@ Tinted tint_lobes(const SeenSky& seen, const GlassTints& tints, std::size_t voxe
       const auto weight = static_cast<float>(weights[tint.pattern]);
       out += {weight * (tint.left - 1.0f), weight * (best - 1.0f)};
       LobeShares lost{};
-      add_lobes_seen(axes.own, octant, 1u << tint.pattern, lost);
+      add_lobes_seen(axis_of(fan), octant_of(fan), 1u << tint.pattern, lost);
       for (std::size_t lobe = 0; lobe < lobes.size(); ++lobe)
         lobes[lobe] -= std::min(lobes[lobe], static_cast<std::uint32_t>(std::lround(
                                                  static_cast<float>(lost[lobe]) * (1.0f - best))));
@@ -176,14 +171,14 @@ SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face, bool p
 
 /// Takes from views what glass takes of the light from there. @return a colour a corner: that of an
 /// even sky's light, as seen; where a corner sees no sky, that of the others.
-glm::uvec4 SkyTransfer::tint_corners(const Around& around, const FaceAxes& axes,
+glm::uvec4 SkyTransfer::tint_corners(const Around& around, int face,
                                      std::span<LobeShares> views) const {
   std::array<Tinted, 9> tinted{};
   Tinted all;
   for (std::size_t at = 0; at < tinted.size(); ++at) {
     if (!around.air[at]) continue;
     const std::size_t index = wanted_.of(around.voxels[at]);
-    all += tinted[at] = tint_lobes(seen_, tints_, index, axes, views[at]);
+    all += tinted[at] = tint_lobes(seen_, tints_, index, face, views[at]);
   }
   glm::uvec4 out = white_tint();
   for (std::size_t corner = 0; corner < 4 && all.lobes > 0.0f; ++corner) {
@@ -210,13 +205,13 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
     const std::size_t index = wanted_.of(voxel);
     if (const LampLight* lit = lamp_light_.find(index))
       lamps[at] = (*lit)[static_cast<std::size_t>(face)];
-    views[at] = lobes_from(seen_, index, axes);
+    views[at] = lobes_from(seen_, index, face);
     tinted |= tints_.has(index);
     if (!plant && face == 2 && air_.has_leaves && air_.plants.at(voxel))
       for (std::uint32_t& lobe : views[at]) lobe -= lobe / kPartUnderPlant;
   }
   glm::uvec4 tint = white_tint();
-  if (tinted) tint = tint_corners(around, axes, views);
+  if (tinted) tint = tint_corners(around, face, views);
   const Corners bounces = bounced(around, face, plant);
   std::array<std::uint32_t, 8> words{};
   glm::uvec4 lamp_words(0);

@@ -123,7 +123,7 @@ class SkyTransfer {
   }
   void spread(const Lamp& lamp, LampLightMap& into) const;
   Corners bounced(const Around& around, int face, bool plant) const;
-  glm::uvec4 tint_corners(const Around& around, const FaceAxes& axes,
+  glm::uvec4 tint_corners(const Around& around, int face,
                           std::span<std::array<std::uint32_t, shared::kSkyLobes>> views) const;
   RecordParts record_parts() const { return {bounces_ && bounces_->is_keyed(), tints_.any()}; }
   ChunkSky faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const;

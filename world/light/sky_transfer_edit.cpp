@@ -200,6 +200,10 @@ class SkyTransfer::Edit {
     // Lines end at faces: where one comes or goes and no voxel does, all those to its voxel.
     if (!of_.bounces_) return;
     const std::set<IVec3> changed(voxels_.begin(), voxels_.end());
+    // Where a voxel comes before a face and hides it without stopping each line (leaves beside
+    // leaves), those that begin in it still end there.
+    for (const Face& face : went_)
+      if (!face.drawn.plant && changed.contains(face.front)) fronts_.add(of_.wanted_, face.front);
     std::set<IVec3> behind;
     for (const std::vector<Face>* faces : {&came_, &went_})
       for (const Face& face : *faces)

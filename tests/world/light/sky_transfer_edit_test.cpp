@@ -315,6 +315,46 @@ void follow_key(SkyTransfer& transfer, std::size_t slot, const glm::vec3& to_bod
   transfer.take_key(slot);
 }
 
+// Between leaves there are no faces: a face goes as leaves are put before it, which lines pass.
+LightChunks with_leaves(const Voxels& stone, const Voxels& leaves) {
+  const LightChunks as_stone = chunks_of(leaves);
+  LightChunks out = chunks_of(stone);
+  for (auto& [at, chunk] : out) {
+    LightChunk other = *chunk;
+    if (const auto found = as_stone.find(at); found != as_stone.end())
+      other.leaves = found->second->opaque;
+    for (const IVec3& v : leaves) {
+      if (test::chunk_holding(v) != at) continue;
+      for (int face = 0; face < 6; ++face)
+        if (const IVec3 next = test::beside(v, face);
+            !stone.contains(next) && !leaves.contains(next))
+          other.quads.push_back(
+              {static_cast<std::uint32_t>((v.x & 63) | (v.y & 63) << 6 | (v.z & 63) << 12),
+               static_cast<std::uint32_t>(block::kOakLeaves | face << shared::kFaceShift)});
+    }
+    chunk = std::make_shared<const LightChunk>(std::move(other));
+  }
+  return out;
+}
+TEST(SkyTransferEdit, FollowsLeavesThatComeAndGo) {
+  Voxels stone, leaves;
+  for (int x = 8; x < 24; ++x)
+    for (int z = 8; z < 24; ++z)
+      for (int y = 8; y < (z < 10 ? 14 : 9); ++y) stone.insert({x, y, z});
+  for (int y = 9; y < 12; ++y)
+    for (int x = 15; x < 18; ++x) leaves.insert({x, y, 15});
+  const std::unique_ptr<SkyTransfer> kept = looked_at(with_leaves(stone, leaves));
+  std::mt19937 random(1);
+  for (int i = 0; i < 60; ++i) {
+    const IVec3 at{13 + static_cast<int>(random() % 7), 9 + static_cast<int>(random() % 3),
+                   13 + static_cast<int>(random() % 5)};
+    if (leaves.erase(at) == 0) leaves.insert(at);
+    const LightChunks now = with_leaves(stone, leaves);
+    ASSERT_TRUE(kept->edit(now)) << i;
+    ASSERT_EQ(differences(kept->faces(), looked_at(now)->faces()), 0u) << i;
+  }
+}
+
 // A court with a wall, leaves of grass, a lamp and panes: voxels come and go, and the sun moves on.
 TEST(SkyTransferEdit, FollowsABodyThatMovesOn) {
   std::mt19937 random(6);

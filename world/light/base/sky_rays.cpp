@@ -119,6 +119,13 @@ std::vector<LineVoxel> line_voxels(IVec3 direction, int face_axis) {
   return out;
 }
 
+std::array<std::size_t, 4> fans_of_face(int face) {
+  const int axis = face / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;
+  const int behind = face % 2 << axis;  // faces of odd directions look along -axis
+  return {fan_of(axis, behind), fan_of(axis, behind | 1 << first),
+          fan_of(axis, behind | 1 << second), fan_of(axis, behind | 1 << first | 1 << second)};
+}
+
 std::uint64_t leaves_that_stop(int leaf_set, int x, int y, int z_word) {
   const std::uint64_t place = hash3(static_cast<std::uint32_t>(leaf_set), x, y, z_word);
   return mix64(place + 0x9e3779b97f4a7c15u);

@@ -37,6 +37,9 @@ inline constexpr std::size_t kFans = 3 * kOctants;
 constexpr std::size_t fan_of(int axis, int octant) {
   return static_cast<std::size_t>(axis * kOctants + octant);
 }
+/// Of a face, those before it: by quarter, bit 0: negative along the first axis after its own (y
+/// after x, z after y, x after z), bit 1: along the second.
+std::array<std::size_t, 4> fans_of_face(int face);
 constexpr int octant_of(std::size_t fan) {
   return static_cast<int>(fan) % kOctants;
 }
