@@ -103,6 +103,11 @@ struct Material {
   float scattering;  // translucent kinds: evenly to all sides, white [1/block of path]; else 0
   uint liquid;       // 1: level surfaces ripple
 };
+// A Material as words of 32 bits, for shaders that load one of them, and which of these is a layer.
+SHARED_CONST uint kMaterialWords = 13u;
+SHARED_CONST uint kLayerSideWord = 0u;
+SHARED_CONST uint kLayerTopWord = 1u;
+SHARED_CONST uint kLayerBottomWord = 2u;
 
 // Arguments of vkCmdDrawIndexedIndirect (VkDrawIndexedIndirectCommand). firstInstance carries the
 // section index.

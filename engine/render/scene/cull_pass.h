@@ -82,8 +82,10 @@ inline auto draw_bindings(const SceneRefs& scene, const CulledDraws& draws, std:
 /// What cutout.glsl declares, which reads materials by word.
 inline auto cutout_bindings(const SceneRefs& scene) {
   using shared::Material;
-  static_assert(sizeof(Material) == 13 * 4 && offsetof(Material, layer_side) == 0 &&
-                offsetof(Material, layer_top) == 4 && offsetof(Material, layer_bottom) == 8);
+  static_assert(sizeof(Material) == 4 * shared::kMaterialWords &&
+                offsetof(Material, layer_side) == 4 * shared::kLayerSideWord &&
+                offsetof(Material, layer_top) == 4 * shared::kLayerTopWord &&
+                offsetof(Material, layer_bottom) == 4 * shared::kLayerBottomWord);
   return std::tuple{
       gpu::storage<shared::kMaterialsBinding>(scene.materials),
       gpu::sampled<shared::kBlockTexturesBinding>(scene.block_coverage, scene.block_sampler)};

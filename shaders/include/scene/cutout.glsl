@@ -5,7 +5,6 @@
 #include "shared/bindings.h"
 
 // Material[], of which one word is loaded: three, of which one is then selected, cost lavapipe three times as much.
-const uint kMaterialWords = 13u, kLayerSide = 0u, kLayerTop = 1u, kLayerBottom = 2u;
 layout(scalar, binding = kMaterialsBinding) uniform Materials { uint words[kMaxMaterials * kMaterialWords]; } materials;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;  // their coverage: render::coverage_texels()
 
@@ -19,7 +18,7 @@ float texture_level(vec2 uv) {
 // @param whole the quad is opaque: its texture says nothing.
 void discard_uncovered(uint surface, bool whole) {
   uint face = surface_face(surface);
-  uint layer = materials.words[surface_block(surface) * kMaterialWords + (face == 2u ? kLayerTop : face == 3u ? kLayerBottom : kLayerSide)];
+  uint layer = materials.words[surface_block(surface) * kMaterialWords + (face == 2u ? kLayerTopWord : face == 3u ? kLayerBottomWord : kLayerSideWord)];
   vec2 uv = face >= 6u ? plant_uv(in_uv) : in_uv;
   float alpha = textureLod(block_textures, vec3(uv, float(layer)), kFinestCoverage ? 0.0 : texture_level(uv)).r;
   // Leaves are seen from the front: whether their backs are drawn must not depend on which ranges of a section are culled.
