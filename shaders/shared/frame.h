@@ -47,8 +47,6 @@ struct FrameConstants {
   vec2 pixel_to_ndc;     // 2 / image size
   vec2 sample_in_pixel;  // place that is sampled, from the pixel's corner [pixels]: 0.5, its
                          // centre, unless pictures are mixed over time
-  vec2 texel_footprint;  // pixel_to_ndc, or less where several frames make a pixel: textures show
-                         // what is that large
   uvec2 size;            // of the images that are drawn [pixels]
   uvec4 layers_area;  // from xy to before zw: pixels outside show no water or glass, and its layers
                       // have any value there

@@ -37,7 +37,6 @@ struct TemporalStep {
   uvec4 changed_area;  // from xy to before zw: sections came or went there since the oldest frame
   float exposure_ratios[kMixedFrames];  // of dark light of the display under this exposure and a
                                         // slot's
-  float bend;                           // of reverse depth, as a share of it: less is a plane
   uint sky;                             // index of the sky's Motion; the islands' come before
   uint kept;                            // bit a slot: it has an earlier frame
   uint slot;                            // of this frame

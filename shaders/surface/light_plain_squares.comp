@@ -69,7 +69,7 @@ Seen see(uint face, IslandTransform island, vec3 normal, vec3 ray, float z) {
   s.v = across(axes.v, ray);
   s.origin = -vec2(dot(axes.u, island.translation), dot(axes.v, island.translation));
   s.along = s.facing.corner * z;
-  vec3 right = frame.ray_right * frame.texel_footprint.x, up = frame.ray_up * frame.texel_footprint.y;
+  vec3 right = frame.ray_right * frame.pixel_to_ndc.x, up = frame.ray_up * frame.pixel_to_ndc.y;
   s.right = vec3(dot(axes.u, right), dot(axes.v, right), dot(normal, right));
   s.up = vec3(dot(axes.u, up), dot(axes.v, up), dot(normal, up));
   return s;

@@ -113,7 +113,6 @@ FrameTables build_tables(const FrameInput& input, const RenderSettings& settings
   f.ray_forward = camera.forward;
   f.pixel_to_ndc = {2.0f / static_cast<float>(size.width), 2.0f / static_cast<float>(size.height)};
   f.sample_in_pixel = {0.5f, 0.5f};
-  f.texel_footprint = f.pixel_to_ndc;
   f.size = {size.width, size.height};
   f.layers_area = {0, 0, size.width, size.height};
   f.picture_size = f.size;

@@ -13,7 +13,6 @@
 #include "engine/render/plan/frame_history.h"
 #include "engine/render/plan/frame_tables.h"
 #include "engine/render/plan/in_view.h"
-#include "shaders/shared/edges.h"
 
 namespace skerry::render {
 namespace {
@@ -117,8 +116,6 @@ std::optional<TemporalPlan> plan_temporal(const FrameInput& input, const RenderS
                .settings = settings,
                .sky = input.sky,
                .views = {{facts.changes->version(), *input.exposure_ev, {}}}};
-  plan.step.bend =
-      shared::kBendOfPlane * tables.constants.pixel_to_ndc.y * glm::length(tables.constants.ray_up);
   const std::size_t movers = input.islands.size() + 1;
   plan.step.sky = static_cast<std::uint32_t>(movers - 1);
   plan.motions.resize(shared::kMixedFrames * movers);

@@ -84,8 +84,8 @@ vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
   IslandTransform island = island_at(surface_island(word));
   Material material = materials[surface_block(word)];
   vec3 normal = face >= 6u ? vec3(0.70710678, 0.0, face == 6u ? -0.70710678 : 0.70710678) : face_normal(face);
-  vec3 right = lattice_from_world_vector(island, frame.ray_right) * frame.texel_footprint.x;
-  vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.texel_footprint.y;
+  vec3 right = lattice_from_world_vector(island, frame.ray_right) * frame.pixel_to_ndc.x;
+  vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.pixel_to_ndc.y;
   vec3 lattice = lattice_from_world(island, ray * t);
   vec2 uv = face >= 6u ? plant_uv(face_uv(face, place_in_voxel(lattice))) : face_uv(face, lattice);
   return plane_texel(face_layer(face, material), face, uv, PlaneView(lattice_from_world_vector(island, ray), right, up, normal, t), max_taps);
