@@ -21,8 +21,9 @@ class Picture {
   Result<void> resize(const Sizes& sizes, int samples_per_edge, std::uint32_t parts);
   /// RGBA8, as drawn. @pre resize()
   gpu::Image& image() { return image_; }
-  /// RGBA8, what this frame alone makes: the same image unless pictures are mixed. @pre resize()
-  gpu::Image& fresh() { return fresh_ ? fresh_ : image_; }
+  /// RGBA8, what a frame makes by itself: the picture, unless that is `mixed` from it and earlier
+  /// ones. @pre resize(), for pictures that are mixed if this one is
+  gpu::Image& fresh(bool mixed) { return mixed ? fresh_ : image_; }
   /// RGBA8, as shown: the same image unless it is enlarged. @pre resize()
   gpu::Image& shown() { return enlarged_ ? enlarged_ : image_; }
   /// RGBA32F, where parts add up; null for a picture in one part.

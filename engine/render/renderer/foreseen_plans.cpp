@@ -48,6 +48,7 @@ FramePlan common_of(const FramePlan& now, const FrameNeeds& needs) {
   plan.input.fault.reset();
   plan.input.part = plan.input.parts - 1;
   plan.input.light_islands = kSomeIsland;
+  if (!plan.temporal && !why_not_temporal(plan.input, plan.settings)) plan.temporal.emplace();
   plan.indirect =
       needs.indirect && plan.settings.indirect != Indirect::kOff && !plan.shows_channel();
   plan.ao = needs.occupancy && plan.settings.ao_strength > 0.0f &&

@@ -166,11 +166,13 @@ Result<void> Renderer::State::check(const FramePlan& plan) const {
 /// Makes what the frame's passes write to and what outlives them. May fail half-way: what has been
 /// made stays, and the history is about what was there before (see generations).
 Result<void> Renderer::State::make_room(const FramePlan& plan) {
-  if (Result<void> ok = picture.resize({plan.shown, plan.picture, plan.temporal.has_value()},
+  // A frame without geometry has nothing to mix, but foresees frames that are mixed.
+  const bool mixed = !why_not_temporal(plan.input, plan.settings);
+  if (Result<void> ok = picture.resize({plan.shown, plan.picture, mixed},
                                        samples_per_edge(plan.settings), plan.input.parts);
       !ok)
     return ok;
-  if (plan.temporal)
+  if (mixed)
     if (Result<void> ok = kept.ensure(plan.drawn); !ok) return ok;
   if (plan.geometry)
     if (Result<void> ok = shadows.ensure(plan.shadows.layout); !ok) return ok;

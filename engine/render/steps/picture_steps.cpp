@@ -34,7 +34,8 @@ FrameStep show_channel_step() {
 FrameStep develop_step() {
   return {{{needs_picture}, {needs_radiance, {"develop"}}}, [](FrameAssembly& f) {
             f.developed = DevelopPass::add(f.graph, f.pipelines, f.scene, *std::move(f.shaded),
-                                           f.bloom ? &*f.bloom : nullptr, f.owners.picture.fresh());
+                                           f.bloom ? &*f.bloom : nullptr,
+                                           f.owners.picture.fresh(f.plan.temporal.has_value()));
           }};
 }
 

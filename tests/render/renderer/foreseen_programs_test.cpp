@@ -255,6 +255,18 @@ TEST_F(ForeseenPrograms, OfOtherSettingsAreWaitedForByAnExactFrame) {
   EXPECT_EQ(picture(), after);
 }
 
+TEST_F(ForeseenPrograms, OfMixedFramesAreMadeBeforeThereIsGeometry) {
+  RenderSettings mixed;
+  mixed.aa = Antialiasing::kTemporal;
+  restart();
+  ASSERT_TRUE(renderer().occupancy());
+  renderer().foresee_programs();
+  drawn(dull(), mixed, kSize);
+  renderer().wait_for_programs();
+  begin();
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(drawn(dull(), mixed, kSize).programs_made, 0) << i;
+}
+
 TEST_F(ForeseenPrograms, LeaveThePictureAsItIs) {
   const FrameInput in = lively().front();
   drawn(in, {}, kSize);
