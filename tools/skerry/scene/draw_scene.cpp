@@ -13,13 +13,15 @@
 #include "engine/core/check.h"
 #include "engine/gpu/transfer/readback.h"
 #include "shaders/shared/constants.h"
+#include "shaders/shared/temporal.h"
 #include "tools/skerry/scene/scene_device.h"
 
 namespace skerry::tools {
 namespace {
 
-// Before a still with aa=temporal: metered, then each place of a pixel twice.
-constexpr int kSettlingFrames = 32;
+// Before a still with aa=temporal: one that is metered and not kept, then all that are mixed with
+// the still.
+constexpr int kSettlingFrames = shared::kMixedFrames;
 
 measure::Picture picture_of(const render::Captured& radiance) {
   SKERRY_ASSERT(radiance.layers == 1);

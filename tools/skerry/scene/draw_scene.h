@@ -32,9 +32,10 @@ class SceneDrawer {
                                                      const game::SceneOptions& scene,
                                                      game::SceneCache* cache = nullptr);
 
-  /// Draws and waits. With aa=temporal it is the last of 33 frames that are mixed from the first
-  /// on, the picture that play comes to at rest. @param with_radiance also copies out the scene's
-  /// radiance (RGBA16F rounded), which makes the frame take the way over a radiance image.
+  /// Draws and waits. With aa=temporal it is the last of 9 frames, of which the first is metered
+  /// and the others are mixed: the picture that play comes to at rest. @param with_radiance also
+  /// copies out the scene's radiance (RGBA16F rounded), which makes the frame take the way over a
+  /// radiance image.
   Result<Drawn> draw(bool with_radiance = false);
   /// Draws `count` frames and waits for each; every shadow map and table is drawn afresh in each,
   /// as in a screenshot. @param keep_shadows as in play: maps that still hold are kept.
