@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The picture of this frame, whose edges are smooth already, mixed with those of the frames before it, each as it was. A first step mixes pixels
-// that are at rest, and keeps the frame; a second one those at edges. What they show moves exactly as its island or the sky does, so that it is
+// The picture of this frame, whose edges are smooth already, mixed with those of the frames before it, each as it was. A first step mixes all
+// pixels if the frame is at rest, and keeps the frame; a second one those at edges. What they show moves exactly as its island or the sky does, so that it is
 // known where each earlier frame had it; keys say whether it is a surface that the pixel may show. docs/decisions/0088.
 #include "include/frame/common.glsl"
 #include "include/scene/layers.glsl"
@@ -18,8 +18,8 @@ layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kLayerDepthsBinding) uniform sampler2D water_depths;
 layout(binding = kFreshPictureBinding) uniform sampler2D fresh;
-layout(binding = kKeptPicturesBinding, r32ui) uniform uimage2D kept_pictures;
-layout(binding = kKeptKeysBinding, r32ui) uniform uimage2D kept_keys;
+layout(binding = kKeptPicturesBinding, r32ui) uniform uimage2DArray kept_pictures;
+layout(binding = kKeptKeysBinding, r32ui) uniform uimage2DArray kept_keys;
 layout(binding = kPictureBinding, rgba8) writeonly uniform image2D picture;
 layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[kEdgeDispatches]; };
 layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // that show edges, x | y << 16
@@ -68,13 +68,12 @@ uint kept_key(uint word, float depth) { return word != 0u ? (floatBitsToUint(dep
 uint key_identity(uint key) { return key & 0xfffu; }
 float key_depth(uint key) { return uintBitsToFloat(key >> 12 << 10); }
 
-ivec2 slot_corner(uint slot) { return ivec2(slot % kKeptColumns, slot / kKeptColumns) * ivec2(frame.size); }
-uint key_at(ivec2 pixel, uint slot) { return imageLoad(kept_keys, slot_corner(slot) + pixel).r; }
+uint key_at(ivec2 pixel, uint slot) { return imageLoad(kept_keys, ivec3(pixel, slot)).r; }
 bool has(uint slots, uint slot) { return (slots >> slot & 1u) != 0u; }
 
 // Light of the display under this frame's exposure, by a curve that bends as the tone curves do.
 vec3 kept_light(ivec2 pixel, uint slot) {
-  vec3 light = light_of(unpackUnorm4x8(imageLoad(kept_pictures, slot_corner(slot) + pixel).r).rgb);
+  vec3 light = light_of(unpackUnorm4x8(imageLoad(kept_pictures, ivec3(pixel, slot)).r).rgb);
   float ratio = push.step.exposure_ratios[slot];
   return light * ratio / (1.0 + (ratio - 1.0) * light);
 }
@@ -94,10 +93,11 @@ vec3 within_around(vec3 light, ivec2 pixel, bool wanted) {
 }
 
 // Of frames in which nothing has moved since, in the order of slots: at rest the mean has the same bits frame after frame.
-vec3 mixed_at_rest(ivec2 pixel, uint still) {
+// @param packed this frame's picture, as it is kept: it must have the bits that it will have when it is read again.
+vec3 mixed_at_rest(ivec2 pixel, uint packed, uint still) {
   vec4 sum = vec4(0.0);
   uint count = still != 0u ? kMixedFrames : 0u;
-  vec3 here = fresh_light(pixel);
+  vec3 here = light_of(unpackUnorm4x8(packed).rgb);
   for (uint slot = 0u; slot < count; ++slot) {
     bool own = slot == push.step.slot;
     if (own || has(still, slot)) sum += vec4(own ? here : kept_light(pixel, slot), 1.0);
@@ -120,8 +120,7 @@ Around around(ivec2 pixel) {
   a.farthest = 2.0;
   a.alike = true;
   for (int i = 0; i < 9; ++i) {
-    vec2 to = vec2(i % 3 - 1, i / 3 - 1);
-    ivec2 at = in_picture(pixel + ivec2(to));
+    ivec2 at = in_picture(pixel + ivec2(i % 3 - 1, i / 3 - 1));
     float depth = texelFetch(depths, at, 0).r;
     uint word = covered_word(imageLoad(surfaces, at).r, depth);
     a.identities[i] = identity_of(word);
@@ -129,7 +128,7 @@ Around around(ivec2 pixel) {
     if (depth > a.nearest) {
       a.nearest = depth;
       a.nearest_word = word;
-      a.to_nearest = to;
+      a.to_nearest = vec2(at - pixel);
     }
     a.farthest = min(a.farthest, depth);
   }
@@ -191,9 +190,10 @@ void main() {
     return;
   }
   uint key = kept_key(word, depth);
-  vec3 light = mixed_at_rest(pixel, changed ? 0u : push.step.still);
+  uint packed = packUnorm4x8(texelFetch(fresh, pixel, 0));
+  vec3 light = mixed_at_rest(pixel, packed, changed ? 0u : push.step.still);
   show(pixel, within_around(light, pixel, seen_through && push.step.still != 0u));
-  ivec2 at = slot_corner(push.step.slot) + pixel;
-  imageStore(kept_pictures, at, uvec4(packUnorm4x8(texelFetch(fresh, pixel, 0))));
+  ivec3 at = ivec3(pixel, push.step.slot);
+  imageStore(kept_pictures, at, uvec4(packed));
   imageStore(kept_keys, at, uvec4(key));
 }

@@ -6,13 +6,13 @@ SHARED_BEGIN
 
 SHARED_CONST uint kMotionTexels = 3u;  // of 128 bits, one a row
 
-// Frames that are mixed, this one among them. Each has a slot of the images that keep them, side by
-// side in two columns.
+// Frames that are mixed, this one among them. Each has a slot, a layer of the images that keep
+// them.
 SHARED_CONST uint kMixedFrames = 8u;
-SHARED_CONST uint kKeptColumns = 2u;
 
-// Where the frames of a slot sample a pixel, from its centre: in eighths of a pixel, -4 to 3. The
-// first points of Sobol's sequence, of which the second half and each quarter lie apart, too.
+// Where the frames of a slot sample a pixel at rest, from its centre: in eighths of a pixel, -4
+// to 3. The first points of Sobol's sequence, of which the second half and each quarter lie apart,
+// too.
 SHARED_FUNCTION int centred_eighths(uint at) {
   return at < 4u ? int(at) : int(at) - 8;
 }

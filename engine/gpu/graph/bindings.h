@@ -38,6 +38,7 @@ template <std::uint32_t kBinding>
 constexpr auto storage(BufferRef ref) {
   return Given<kBinding, Giving::kBuffer, BufferRef>{ref};
 }
+/// @param layer that the shader sees, or kAllLayers for an array of them.
 template <std::uint32_t kBinding>
 constexpr auto storage(ImageRef ref, std::uint32_t layer = 0) {
   return Given<kBinding, Giving::kStorageImage, ImageRef>{ref, {}, layer};

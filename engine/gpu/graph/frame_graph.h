@@ -98,6 +98,9 @@ class PassBuilder {
   std::uint32_t pass_;
 };
 
+/// Of an image that is given to a binding as the array that it is.
+constexpr std::uint32_t kAllLayers = VK_REMAINING_ARRAY_LAYERS;
+
 /// Records one pass. Resolves refs, pushes descriptors, checks that each resource was declared and
 /// each binding is set.
 class Commands {
@@ -107,6 +110,7 @@ class Commands {
                BufferRef buffer);  ///< a storage or a uniform buffer, as the shader declares it
   /// A buffer made with BufferDesc::texels, declared as one that is read.
   void texels(std::uint32_t binding, BufferRef buffer);
+  /// @param layer or kAllLayers: an image array, of one mip.
   void storage(std::uint32_t binding, ImageRef image, std::uint32_t mip = 0,
                std::uint32_t layer = 0);
   void sampled(std::uint32_t binding, ImageRef image, VkSampler sampler);

@@ -100,7 +100,8 @@ void Commands::storage(std::uint32_t binding, ImageRef ref, std::uint32_t mip,
   Bound& bound = slot(binding);
   if (bound.type != VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)
     fail("gives a storage image to the binding " + std::to_string(binding));
-  bound.image = {VK_NULL_HANDLE, image(ref).view_of(mip, layer), layout_of(ref)};
+  const VkImageView view = layer == kAllLayers ? image(ref).view() : image(ref).view_of(mip, layer);
+  bound.image = {VK_NULL_HANDLE, view, layout_of(ref)};
 }
 
 void Commands::sampled(std::uint32_t binding, ImageRef ref, VkSampler sampler) {

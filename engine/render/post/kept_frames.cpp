@@ -11,13 +11,12 @@ Result<void> KeptFrames::ensure(VkExtent2D size) {
   ++generation_;
   pictures_ = {};
   keys_ = {};
-  const VkExtent2D slots{size.width * shared::kKeptColumns,
-                         size.height * (shared::kMixedFrames / shared::kKeptColumns)};
   const auto make = [&](gpu::Image& image, const char* name) -> Result<void> {
     Result<gpu::Image> made = device_->create_image(
         {.name = name,
          .format = VK_FORMAT_R32_UINT,
-         .extent = slots,
+         .extent = size,
+         .layers = shared::kMixedFrames,
          .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
     if (!made) return made.error();
     image = *std::move(made);

@@ -19,9 +19,9 @@ class KeptFrames {
   Result<void> ensure(VkExtent2D size);
   /// Queues a frame's motions. Errors: out of memory.
   Result<void> upload(gpu::Uploader& uploader, std::span<const shared::Motion> motions);
-  /// Pictures, RGBA8 as R32_UINT, in slots of the frames' size. @pre ensure()
+  /// Pictures, RGBA8 as R32_UINT, a layer a slot. @pre ensure()
   gpu::Image& pictures() { return pictures_; }
-  /// Which surfaces they show, R32_UINT, see kept_key(). @pre ensure()
+  /// Which surfaces they show, R32_UINT, see kept_key(), likewise. @pre ensure()
   gpu::Image& keys() { return keys_; }
   gpu::Buffer& motions() { return motions_; }
   /// Grows whenever images are made anew.
@@ -29,7 +29,7 @@ class KeptFrames {
 
  private:
   gpu::Device* device_;
-  VkExtent2D size_{};  // of a slot
+  VkExtent2D size_{};
   gpu::Image pictures_, keys_;
   gpu::Buffer motions_;  // texels, room for every island
   std::uint64_t generation_ = 0;

@@ -26,7 +26,7 @@ Developed TemporalPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         [&](gpu::PassBuilder& b) {
           for (const gpu::BufferRef ref : {scene.frame, motions, lists.tiles, lists.dispatches})
             b.read(ref, Use::kComputeRead);
-          b.read(lists.dispatches, Use::kIndirect);
+          if (edges) b.read(lists.dispatches, Use::kIndirect);
           b.read(words, Use::kComputeRead);
           for (const gpu::ImageRef ref : {depth, shown}) b.read(ref, Use::kComputeSampled);
           if (water) b.read(water, Use::kComputeSampled);
@@ -49,8 +49,8 @@ Developed TemporalPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                     gpu::sampled<shared::kDepthsBinding>(depth, point),
                     gpu::sampled<shared::kLayerDepthsBinding>(water ? water : depth, point),
                     gpu::sampled<shared::kFreshPictureBinding>(shown, point),
-                    gpu::storage<shared::kKeptPicturesBinding>(pictures),
-                    gpu::storage<shared::kKeptKeysBinding>(keys),
+                    gpu::storage<shared::kKeptPicturesBinding>(pictures, gpu::kAllLayers),
+                    gpu::storage<shared::kKeptKeysBinding>(keys, gpu::kAllLayers),
                     gpu::storage<shared::kPictureBinding>(out), gpu::constants(step));
           if (edges)
             c.dispatch_indirect(lists.dispatches, 2 * sizeof(shared::TileDispatch));
