@@ -1,4 +1,4 @@
-// Pictures mixed with those of earlier frames. docs/decisions/0048.
+// Pictures mixed with those of earlier frames. docs/decisions/0088.
 #ifndef SKERRY_SHARED_TEMPORAL_H
 #define SKERRY_SHARED_TEMPORAL_H
 #include "types.h"
@@ -40,7 +40,7 @@ struct TemporalStep {
   uint sky;                             // index of the sky's Motion; the islands' come before
   uint kept;                            // bit a slot: it has an earlier frame
   uint slot;                            // of this frame
-  uint still;  // bit a slot: neither the view nor an island has moved since
+  uint still;  // bit a slot: neither the view nor an island in it has moved since
 };
 
 SHARED_END

@@ -128,20 +128,28 @@ bool blended_in_view(std::span<const shared::Section> sections,
   });
 }
 
-std::vector<bool> islands_in_view(const SceneFacts& facts, std::span<const IslandPlacement> islands,
-                                  const shared::CullView& view, const FixedPos& eye) {
+bool island_in_view(const IslandPlacement& island, const shared::CullView& view,
+                    const FixedPos& eye) {
   constexpr float kCoarser = 64.0f;  // blocks that voxels of coarse levels may stand out by
-  std::vector<bool> out(islands.size(), false);
+  const float radius = static_cast<float>(island.bounding_radius) + kCoarser;
+  const glm::vec3 place(blocks_between(island.origin, eye));
+  return std::ranges::all_of(view.planes, [&](const glm::vec4& plane) {
+    return glm::dot(glm::vec3(plane), place) + plane.w >= -radius;
+  });
+}
+
+std::vector<bool> islands_with_sections(const SceneFacts& facts, std::size_t islands) {
+  std::vector<bool> out(islands, false);
   for (const shared::Section& s : facts.sections)
     if (s.range_end[shared::kRangeCount - 1] != 0) out[s.island] = true;
-  for (std::size_t i = 0; i < islands.size(); ++i) {
-    const float radius = static_cast<float>(islands[i].bounding_radius) + kCoarser;
-    if (!out[i]) continue;
-    const glm::vec3 place(blocks_between(islands[i].origin, eye));
-    out[i] = std::ranges::all_of(view.planes, [&](const glm::vec4& plane) {
-      return glm::dot(glm::vec3(plane), place) + plane.w >= -radius;
-    });
-  }
+  return out;
+}
+
+std::vector<bool> islands_in_view(const SceneFacts& facts, std::span<const IslandPlacement> islands,
+                                  const shared::CullView& view, const FixedPos& eye) {
+  std::vector<bool> out = islands_with_sections(facts, islands.size());
+  for (std::size_t i = 0; i < islands.size(); ++i)
+    if (out[i]) out[i] = island_in_view(islands[i], view, eye);
   return out;
 }
 

@@ -22,6 +22,15 @@ bool blended_in_view(std::span<const shared::Section> sections,
                      std::span<const shared::IslandTransform> islands,
                      const shared::CullView& view);
 
+/// Whether an island's bounding sphere, and what coarse levels stand out of it, touches the
+/// frustum.
+/// @param view relative to `eye`.
+bool island_in_view(const IslandPlacement& island, const shared::CullView& view,
+                    const FixedPos& eye);
+
+/// Which of the islands have sections that are drawn.
+std::vector<bool> islands_with_sections(const SceneFacts& facts, std::size_t islands);
+
 /// Which islands the camera's picture may show: those with sections whose bounding sphere touches
 /// the frustum.
 /// @param view the camera's, relative to `eye`.

@@ -19,9 +19,9 @@ namespace {
 
 /// Of display light by exposure, both as logarithms, in the dark: ACES has 1.26 to 1.5.
 constexpr float kSlopeOfTone = 1.4f;
-constexpr float kMostExposureStep = 0.5f;  // stops between two frames that are mixed
-// Cosine of the angle that sun and moon may move between two frames that are mixed: 0.2 degrees,
-// more than half a minute of the day.
+// Between successive frames of a history; up to seven such steps lie between frames that are mixed.
+constexpr float kMostExposureStep = 0.5f;  // stops
+// Cosine of the angle that sun and moon may move: 0.2 degrees, more than half a minute of the day.
 constexpr double kLeastSameSky = 0.999994;
 
 struct View {
@@ -75,13 +75,21 @@ bool same_view(const Camera& a, const Camera& b) {
          a.fov_deg == b.fov_deg;
 }
 
-/// Whether nothing has moved between the two.
-bool is_still(const FrameInput& input, const PreviousFrame& then) {
-  return same_view(input.camera, then.camera) && input.islands.size() == then.islands->size() &&
-         std::ranges::equal(input.islands, *then.islands,
-                            [](const IslandPlacement& a, const IslandPlacement& b) {
-                              return a.origin == b.origin && a.rotation == b.rotation;
-                            });
+/// Whether nothing that is drawn has moved between the two. What has come or gone is known by its
+/// sections, see changed_area().
+/// @param drawn islands that have sections. @param view the camera's.
+bool is_still(const FrameInput& input, const PreviousFrame& then, const std::vector<bool>& drawn,
+              const shared::CullView& view) {
+  if (!same_view(input.camera, then.camera)) return false;
+  for (std::size_t i = 0; i < input.islands.size(); ++i) {
+    if (!drawn[i]) continue;
+    const IslandPlacement& here = input.islands[i];
+    const IslandPlacement& there = i < then.islands->size() ? (*then.islands)[i] : here;
+    if (here.origin == there.origin && here.rotation == there.rotation) continue;
+    for (const IslandPlacement* island : {&here, &there})
+      if (island_in_view(*island, view, input.camera.position)) return false;
+  }
+  return true;
 }
 
 /// Equal but for what moves while one plays.
@@ -123,18 +131,20 @@ std::optional<TemporalPlan> plan_temporal(const FrameInput& input, const RenderS
   const std::optional<TemporalHistory>& last = history.temporal;
   if (!last || !history.previous || !is_of_use(*last, plan.next, facts.kept_generation))
     return plan;
-  plan.frame = last->frames;
-  plan.next.frames = last->frames + 1;
+  const std::uint32_t frame = last->frames;  // since the history began
+  plan.next.frames = frame + 1;
   std::vector<KeptView> views = last->views;
   views[0].seen = *history.previous;
-  plan.step.slot = plan.frame % shared::kMixedFrames;
+  plan.step.slot = frame % shared::kMixedFrames;
+  const std::vector<bool> drawn_islands = islands_with_sections(facts, input.islands.size());
+  const shared::CullView view = cull_view_of(view_of(input.camera, drawn.width, drawn.height));
   for (std::uint32_t i = 0; i < views.size(); ++i) {
-    const std::uint32_t slot = (plan.frame - 1 - i) % shared::kMixedFrames;
+    const std::uint32_t slot = (frame - 1 - i) % shared::kMixedFrames;
     add_motions(input, views[i].seen, drawn,
                 std::span(plan.motions).subspan(slot * movers, movers));
     plan.step.kept |= 1u << slot;
-    if (is_still(input, views[i].seen)) plan.step.still |= 1u << slot;
-    if (i == 0 && plan.step.still != 0) plan.jitter = temporal_jitter(plan.frame);
+    if (is_still(input, views[i].seen, drawn_islands, view)) plan.step.still |= 1u << slot;
+    if (i == 0 && plan.step.still != 0) plan.jitter = temporal_jitter(frame);
     plan.step.exposure_ratios[slot] =
         std::exp2(kSlopeOfTone * (views[i].exposure_ev - *input.exposure_ev));
   }

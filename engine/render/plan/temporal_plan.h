@@ -17,8 +17,7 @@ struct FrameHistory;
 
 /// How a frame is drawn and mixed with the ones before.
 struct TemporalPlan {
-  std::uint32_t frame = 0;  ///< since the history began: 0 has none
-  glm::vec2 jitter{0.0f};   ///< of the sampled place, from the pixels' centres [pixels]
+  glm::vec2 jitter{0.0f};  ///< of the sampled place, from the pixels' centres [pixels]
   std::vector<shared::Motion> motions{};  ///< a slot: one an island, and the sky's
   shared::TemporalStep step{};
   TemporalHistory next{};
