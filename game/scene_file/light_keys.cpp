@@ -32,8 +32,7 @@ Result<void> parse_shadow_size(std::string_view text, Settings& s) {
 constexpr SettingKey kLightKeys[] = {
     {"aa", "off, edge or temporal",
      "Smooth edges of blocks, leaves and plants. edge: each pixel at an edge shows both sides by "
-     "the share that they cover; temporal: by what earlier frames saw at other places of the "
-     "pixel.",
+     "the share that they cover; temporal: the same, mixed with earlier frames.",
      [](std::string_view t, Settings& s) {
        return into_name(parse_name(t, "aa", kAntialiasingNames), s.render.aa);
      },

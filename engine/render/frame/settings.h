@@ -42,7 +42,7 @@ struct GBufferStore {
 enum class Antialiasing : std::uint8_t {
   kOff,
   kEdge,     ///< by the share of a pixel that each side of an edge covers
-  kTemporal  ///< by what earlier frames have seen at other places of the pixel. decisions/0048
+  kTemporal  ///< the same, mixed with what earlier frames showed there. docs/decisions/0088
 };
 
 /// From exposed radiance to what a display can show.
