@@ -23,11 +23,6 @@ namespace skerry::world {
 /// Mean diffuse albedo of a block's faces, linear RGB, by face direction.
 using FaceAlbedo = std::array<glm::vec3, 6>;
 
-/// Rec. 709.
-inline float luminance(const glm::vec3& c) {
-  return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
-
 /// Of what a face under level water would send out into the air without it, the share that gets
 /// there, if light falls evenly on the water: by Fresnel's, Snell's and Beer's laws for a wide
 /// level bed of albedo 0.45, whose light the surface mirrors back in part. shaders/include/surface/

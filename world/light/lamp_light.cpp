@@ -12,7 +12,8 @@ namespace skerry::world {
 namespace {
 
 constexpr float kWideWithin = 4.0f;  // voxels: from there on, a face is narrow (to 2% of its mean)
-constexpr double kTogether = 1e-6;   // of the way: crossings that count as one
+constexpr float kLeastDistance2 = 0.25f;  // voxels, of a corner from a lamp
+constexpr double kTogether = 1e-6;        // of the way: crossings that count as one
 
 int floor_to_int(double v) {
   return static_cast<int>(std::floor(v));
@@ -107,6 +108,20 @@ class Line {
 
 }  // namespace
 
+glm::vec3 LampLight::at(std::size_t face, std::size_t corner) const {
+  const float mean = luminance(faces[face]);
+  return mean > 0.0f ? faces[face] * (corners[face][corner] / mean) : glm::vec3(0.0f);
+}
+
+LampLight& LampLight::operator+=(const LampLight& other) {
+  for (std::size_t face = 0; face < faces.size(); ++face) {
+    faces[face] += other.faces[face];
+    for (std::size_t corner = 0; corner < 4; ++corner)
+      corners[face][corner] += other.corners[face][corner];
+  }
+  return *this;
+}
+
 LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel) {
   LampLight out{};
   const glm::vec3 middle(static_cast<float>(voxel.x) + 0.5f, static_cast<float>(voxel.y) + 0.5f,
@@ -129,14 +144,22 @@ LampLight light_of_lamp(const AirVolume& air, const WeakLamp& lamp, IVec3 voxel)
                             ? solid_angle_of_face(way[(axis + 1) % 3], way[(axis + 2) % 3], along)
                             : along / (distance2 * std::sqrt(distance2));
     out[face] = lamp.intensity * (clear * window * share);
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    const float all = luminance(lamp.intensity * clear) * window * along;
+    for (int corner = 0; corner < 4; ++corner) {
+      glm::vec3 from_corner = way;
+      from_corner[b] -= (corner & 1) != 0 ? 0.5f : -0.5f;
+      from_corner[c] -= (corner & 2) != 0 ? 0.5f : -0.5f;
+      const float d2 = std::max(glm::dot(from_corner, from_corner), kLeastDistance2);
+      out.corners[face][static_cast<std::size_t>(corner)] = all / (d2 * std::sqrt(d2));
+    }
   }
   return out;
 }
 
 void LampLightMap::add(std::size_t number, const LampLight& light) {
   LampLight sum = light;
-  if (const LampLight* before = find(number))
-    for (std::size_t face = 0; face < sum.size(); ++face) sum[face] = (*before)[face] + light[face];
+  if (const LampLight* before = find(number)) (sum = *before) += light;
   set(number, sum);
 }
 

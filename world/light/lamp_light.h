@@ -10,9 +10,26 @@
 
 namespace skerry::world {
 
+/// Rec. 709.
+inline float luminance(const glm::vec3& c) {
+  return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+
 /// Irradiance of weak lamps in voxels, for each of the six face directions: the mean over the
 /// voxel's side that lies behind it, where the face is that looks there.
-using LampLight = std::array<glm::vec3, 6>;
+struct LampLight {
+  std::array<glm::vec3, 6> faces{};
+  /// At that side's corners, b + 2 c (FaceAxes): luminance, from half a voxel off at least. Between
+  /// means of voxels the light of a lamp a block away would come out twice as bright.
+  std::array<std::array<float, 4>, 6> corners{};
+
+  const glm::vec3& operator[](std::size_t face) const { return faces[face]; }
+  glm::vec3& operator[](std::size_t face) { return faces[face]; }
+  /// At a corner, in the colour of the mean.
+  glm::vec3 at(std::size_t face, std::size_t corner) const;
+  LampLight& operator+=(const LampLight& other);
+  bool operator==(const LampLight&) const = default;
+};
 
 /// What a lamp gives a voxel: nothing unless the line to its middle is clear. A line that passes
 /// where voxels meet at an edge or a corner needs all of them clear; leaves take half, plants a

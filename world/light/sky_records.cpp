@@ -86,6 +86,11 @@ Tinted tint_lobes(const SeenSky& seen, const GlassTints& tints, std::size_t voxe
   return out;
 }
 
+/// Of a voxel of Around, which of its own corners a corner of the one in the middle is.
+std::size_t corner_within(std::size_t at, std::size_t corner) {
+  return corner ^ (at % 3 != 1 ? 1u : 0u) ^ (at / 3 != 1 ? 2u : 0u);
+}
+
 using Corners = std::array<BounceLight::Light, 4>;
 
 std::uint32_t signed_byte(float value) {
@@ -197,14 +202,13 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
   const FaceAxes axes(face);
   const Around around = this->around(front, axes);
   std::array<LobeShares, 9> views{};
-  std::array<glm::vec3, 9> lamps{};
+  std::array<const LampLight*, 9> lamps{};
   bool tinted = false;
   for (std::size_t at = 0; at < 9; ++at) {
     const IVec3 voxel = around.voxels[at];
     if (!around.air[at]) continue;
     const std::size_t index = wanted_.of(voxel);
-    if (const LampLight* lit = lamp_light_.find(index))
-      lamps[at] = (*lit)[static_cast<std::size_t>(face)];
+    lamps[at] = lamp_light_.find(index);
     views[at] = lobes_from(seen_, index, face);
     tinted |= tints_.has(index);
     if (!plant && face == 2 && air_.has_leaves && air_.plants.at(voxel))
@@ -219,7 +223,9 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
     const Around::Some about = around.about(corner);
     const auto count = static_cast<std::uint32_t>(about.count);
     glm::vec3 lamp_sum(0.0f);
-    for (const std::size_t at : about) lamp_sum += lamps[at];
+    for (const std::size_t at : about)
+      if (lamps[at] != nullptr)
+        lamp_sum += lamps[at]->at(static_cast<std::size_t>(face), corner_within(at, corner));
     for (std::size_t lobe = 0; lobe < shared::kSkyLobes; ++lobe) {
       std::uint32_t sum = 0;
       for (const std::size_t at : about) sum += views[at][lobe];

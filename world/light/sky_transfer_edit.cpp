@@ -323,11 +323,9 @@ class SkyTransfer::Edit {
       LampLight weak{}, strong{};
       for (const Lamp& lamp : all) {
         if (!lamp.reaches(voxel)) continue;
-        const LampLight light = light_of_lamp(of_.air_, lamp.lamp, voxel);
-        for (std::size_t face = 0; face < 6; ++face)
-          (lamp.weak ? weak : strong)[face] += light[face];
+        (lamp.weak ? weak : strong) += light_of_lamp(of_.air_, lamp.lamp, voxel);
       }
-      for (std::size_t face = 0; face < 6; ++face) strong[face] += weak[face];
+      strong += weak;
       const std::size_t number = of_.wanted_.of(voxel);
       const bool is_new = of_.lamp_light_.set(number, weak);
       if ((of_.bounces_ && of_.all_lamps_.set(number, strong)) || is_new) changed_at(voxel);

@@ -12,7 +12,8 @@ namespace {
 
 LampLight even(float value) {
   LampLight out;
-  out.fill(glm::vec3(value));
+  out.faces.fill(glm::vec3(value));
+  for (auto& corners : out.corners) corners.fill(2.0f * value);
   return out;
 }
 
@@ -37,8 +38,7 @@ TEST(LampLightMap, HoldsWhatAMapDoesAfterAnyChanges) {
       }
       case 1:
         lights.add(number, light);
-        if (!is_dark(light) || model.contains(number))
-          for (std::size_t face = 0; face < 6; ++face) model[number][face] += light[face];
+        if (!is_dark(light) || model.contains(number)) model[number] += light;
         break;
       default:
         if (model.contains(other)) break;

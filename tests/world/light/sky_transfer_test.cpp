@@ -11,6 +11,7 @@
 #include <random>
 
 #include "tests/world/light/voxel_rooms.h"
+#include "world/light/base/shared_exponent.h"
 
 namespace skerry::world {
 namespace {
@@ -215,6 +216,25 @@ TEST(LampLight, IsTheMeanOverFacesOfWhatAPointGives) {
       EXPECT_EQ(found.z, 0.25f * found.x);
     }
   }
+}
+
+// Corners of faces have the light that a point gives there, whatever it gives the faces about them.
+TEST(LampLight, IsAtCornersWhatAPointGives) {
+  Voxels stone;
+  for (int x = -12; x < 12; ++x)
+    for (int z = -12; z < 12; ++z) stone.insert({x, 0, z});
+  const SkyTransfer::Skies faces = sky_of(chunks_of(stone, {{{0, 1, 0}}, 40.0f}));
+  for (int x = -7; x < 7; ++x)
+    for (int z = -7; z < 7; ++z) {
+      const std::vector<std::uint32_t> record = record_of(faces, {x, 0, z}, 2);
+      for (int corner = 0; corner < 4; ++corner) {
+        const double along_x = x + (corner >> 1) - 0.5, along_z = z + (corner & 1) - 0.5;
+        const double d2 = along_x * along_x + along_z * along_z + 0.25;
+        const double light = static_cast<double>(
+            unpack_shared_exponent(record[8 + static_cast<std::size_t>(corner)]).y);
+        EXPECT_NEAR(light / (0.5 / std::pow(d2, 1.5)), 1.0, 0.02) << x << ' ' << z << ' ' << corner;
+      }
+    }
 }
 
 // Faces take up all directions about a lamp, wherever it stands.
