@@ -110,6 +110,8 @@ MUTANTS = (
     Mutant("sky_wrong_corner", "corners of faces are exchanged", "shaders/include/light/indirect.glsl",
            "face < 2u ? in_voxel.yz : face < 4u ? in_voxel.zx : in_voxel.xy",
            "face < 2u ? in_voxel.zy : face < 4u ? in_voxel.xz : in_voxel.yx", "day cave_mouth"),
+    Mutant("openings_unasked", "no rays are sent through openings", "world/light/opening_rays.cpp",
+           "return lines <= kFewLines &&", "return lines < 0 &&", "stained_hall"),
     Mutant("sky_leaves_open", "leaves do not stop the sky", "world/light/sky_transfer.cpp",
            "if (leaves[w] != 0)", "if (leaves[w] == 1)", "day autumn"),
     Mutant("sky_halved_day", "half of the voxels' lines are not looked along", "world/light/sky_transfer.cpp",

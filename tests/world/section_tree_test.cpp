@@ -16,7 +16,7 @@
 #include <set>
 
 #include "world/islands/world.h"
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 #include "world/mesh/mesh.h"
 #include "world/mesh/seams.h"
 #include "world/voxel/hash.h"

@@ -8,7 +8,7 @@
 
 #include "engine/core/check.h"
 #include "shaders/shared/occupancy.h"
-#include "world/light/face_changes.h"
+#include "world/light/base/face_changes.h"
 #include "world/voxel/chunk.h"
 
 namespace skerry::world {

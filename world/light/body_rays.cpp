@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "world/light/base/face_records.h"
 #include "world/light/base/sky_rays.h"
-#include "world/light/face_records.h"
 #include "world/light/glass_tints.h"
 
 namespace skerry::world {

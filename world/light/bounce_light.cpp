@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "world/light/base/face_records.h"
 #include "world/light/base/shared_exponent.h"
-#include "world/light/face_records.h"
 #include "world/voxel/blocks.h"
 
 namespace skerry::world {

@@ -11,11 +11,11 @@
 #include "engine/core/harmonics.h"
 #include "world/light/air_volume.h"
 #include "world/light/base/marked.h"
+#include "world/light/base/seen_sky.h"
 #include "world/light/body_rays.h"
 #include "world/light/glass_tints.h"
 #include "world/light/lamp_light.h"
 #include "world/light/lattice_lines.h"
-#include "world/light/seen_sky.h"
 #include "world/light/voxel_index.h"
 
 namespace skerry::world {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/exponential.hpp>
 
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 #include "world/voxel/blocks.h"
 
 namespace skerry::world {

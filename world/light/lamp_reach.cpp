@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/core/check.h"
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 
 namespace skerry::world {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "world/light/face_changes.h"
+#include "world/light/base/face_changes.h"
 #include "world/voxel/blocks.h"
 
 namespace skerry::world {

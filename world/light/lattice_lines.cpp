@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 
 namespace skerry::world {
 namespace {

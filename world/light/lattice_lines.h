@@ -39,6 +39,8 @@ class LatticeLines {
 
   const Way& way(std::size_t number) const { return ways_[number]; }
   bool inside(IVec3 voxel) const;
+  /// Opaque voxels, leaves and plants.
+  const VoxelBits& solid() const { return solid_; }
   bool is_opaque(IVec3 voxel) const { return air_.opaque.at(voxel); }
   /// Whether a line passes a voxel. Leaves stop half of the ways, plants a quarter.
   bool open(IVec3 voxel, std::size_t way) const;
@@ -52,7 +54,7 @@ class LatticeLines {
  private:
   Way way_along(IVec3 vector, int face_axis) const;
   const AirVolume& air_;
-  VoxelBits solid_;  // opaque voxels, leaves and plants
+  VoxelBits solid_;
   std::vector<Way> ways_;
 };
 

@@ -32,9 +32,15 @@ struct SkyTransfer::Around {
   }
 };
 
-namespace {
-
 using LobeShares = std::array<std::uint32_t, shared::kSkyLobes>;  // of 65280
+
+/// What a face before a voxel sees of the sky.
+struct SkyTransfer::View {
+  LobeShares lobes{};
+  std::optional<std::uint64_t> rays;  // those of OpeningRays that see it, where they are asked
+};
+
+namespace {
 
 // Of the ground's sky, that a plant on it takes: 1/4, as BounceLight::kUnderPlant has it.
 constexpr std::uint32_t kPartUnderPlant = 4;
@@ -47,7 +53,8 @@ LobeShares lobes_from(const SeenSky& seen, std::size_t voxel, int face) {
   return out;
 }
 
-/// Light of an even sky on a face from a voxel, as its lobes say and by colour.
+/// Light of an even sky on a face from a voxel, as its lobes say and by colour. All of the sky: the
+/// weights of four octants.
 struct Tinted {
   glm::vec3 light{0.0f};
   float lobes = 0.0f;
@@ -57,6 +64,14 @@ struct Tinted {
     return *this;
   }
 };
+
+/// Takes from the lobes what glass takes of a line or a ray, of the colour that it takes least of.
+/// @param whole what a line or ray is of its lobe. @param weight of all of an octant's, alike.
+void tint_lobe(std::uint32_t& lobe, float whole, float weight, const glm::vec3& left, Tinted& out) {
+  const float best = std::max({left.x, left.y, left.z});
+  out += {weight * (left - 1.0f), weight * (best - 1.0f)};
+  lobe -= std::min(lobe, static_cast<std::uint32_t>(std::lround(whole * (1.0f - best))));
+}
 
 /// Takes from the lobes what glass takes of the colour that it takes least of.
 Tinted tint_lobes(const SeenSky& seen, const GlassTints& tints, std::size_t voxel, int face,
@@ -73,15 +88,28 @@ Tinted tint_lobes(const SeenSky& seen, const GlassTints& tints, std::size_t voxe
     if (its == nullptr) continue;
     for (const GlassTints::Tint& tint : *its) {
       if ((bits >> tint.pattern & 1u) == 0) continue;
-      const float best = std::max({tint.left.x, tint.left.y, tint.left.z});
-      const auto weight = static_cast<float>(weights[tint.pattern]);
-      out += {weight * (tint.left - 1.0f), weight * (best - 1.0f)};
-      LobeShares lost{};
-      add_lobes_seen(axis_of(fan), octant_of(fan), 1u << tint.pattern, lost);
-      for (std::size_t lobe = 0; lobe < lobes.size(); ++lobe)
-        lobes[lobe] -= std::min(lobes[lobe], static_cast<std::uint32_t>(std::lround(
-                                                 static_cast<float>(lost[lobe]) * (1.0f - best))));
+      LobeShares whole{};
+      add_lobes_seen(axis_of(fan), octant_of(fan), 1u << tint.pattern, whole);
+      const std::size_t lobe = lobe_of(axis_of(fan), octant_of(fan), tint.pattern);
+      tint_lobe(lobes[lobe], static_cast<float>(whole[lobe]),
+                static_cast<float>(weights[tint.pattern]), tint.left, out);
     }
+  }
+  return out;
+}
+
+/// As tint_lobes(), where rays are asked.
+Tinted tint_rays(const OpeningRays& openings, IVec3 voxel, int face, std::uint64_t rays,
+                 LobeShares& lobes) {
+  constexpr float kWeight = 4.0f * 65280.0f / OpeningRays::kRays;
+  Tinted out;
+  for (std::uint64_t left = rays; left != 0; left &= left - 1) {
+    const auto ray = static_cast<std::size_t>(std::countr_zero(left));
+    const std::size_t lobe = OpeningRays::lobe_of_ray(voxel, face, ray);
+    const auto whole =
+        static_cast<float>(OpeningRays::lobes(voxel, face, std::uint64_t{1} << ray)[lobe]);
+    out += {glm::vec3(kWeight), kWeight};
+    tint_lobe(lobes[lobe], whole, kWeight, openings.left_by_glass_on(voxel, face, ray), out);
   }
   return out;
 }
@@ -174,16 +202,24 @@ SkyTransfer::Corners SkyTransfer::bounced(const Around& around, int face, bool p
   return out;
 }
 
+SkyTransfer::View SkyTransfer::view_of(IVec3 voxel, int face) {
+  if (!openings_.asks(voxel, face)) return {lobes_from(seen_, wanted_.of(voxel), face), {}};
+  const std::uint64_t rays = openings_.seen(voxel, face);
+  return {OpeningRays::lobes(voxel, face, rays), rays};
+}
+
 /// Takes from views what glass takes of the light from there. @return a colour a corner: that of an
 /// even sky's light, as seen; where a corner sees no sky, that of the others.
-glm::uvec4 SkyTransfer::tint_corners(const Around& around, int face,
-                                     std::span<LobeShares> views) const {
+glm::uvec4 SkyTransfer::tint_corners(const Around& around, int face, std::span<View> views) const {
   std::array<Tinted, 9> tinted{};
   Tinted all;
   for (std::size_t at = 0; at < tinted.size(); ++at) {
     if (!around.air[at]) continue;
-    const std::size_t index = wanted_.of(around.voxels[at]);
-    all += tinted[at] = tint_lobes(seen_, tints_, index, face, views[at]);
+    const IVec3 voxel = around.voxels[at];
+    View& view = views[at];
+    tinted[at] = view.rays ? tint_rays(openings_, voxel, face, *view.rays, view.lobes)
+                           : tint_lobes(seen_, tints_, wanted_.of(voxel), face, view.lobes);
+    all += tinted[at];
   }
   glm::uvec4 out = white_tint();
   for (std::size_t corner = 0; corner < 4 && all.lobes > 0.0f; ++corner) {
@@ -198,10 +234,10 @@ glm::uvec4 SkyTransfer::tint_corners(const Around& around, int face,
 /// @param front the voxel before the face. @param plant whether it is that of a plant, which does
 /// not shade itself as it does the ground below it.
 void SkyTransfer::append_record(IVec3 front, int face, bool plant,
-                                std::vector<glm::uvec4>& texels) const {
+                                std::vector<glm::uvec4>& texels) {
   const FaceAxes axes(face);
   const Around around = this->around(front, axes);
-  std::array<LobeShares, 9> views{};
+  std::array<View, 9> views{};
   std::array<const LampLight*, 9> lamps{};
   bool tinted = false;
   for (std::size_t at = 0; at < 9; ++at) {
@@ -209,10 +245,10 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
     if (!around.air[at]) continue;
     const std::size_t index = wanted_.of(voxel);
     lamps[at] = lamp_light_.find(index);
-    views[at] = lobes_from(seen_, index, face);
-    tinted |= tints_.has(index);
+    views[at] = view_of(voxel, face);
+    tinted |= views[at].rays ? openings_.passes_glass(voxel, face) : tints_.has(index);
     if (!plant && face == 2 && air_.has_leaves && air_.plants.at(voxel))
-      for (std::uint32_t& lobe : views[at]) lobe -= lobe / kPartUnderPlant;
+      for (std::uint32_t& lobe : views[at].lobes) lobe -= lobe / kPartUnderPlant;
   }
   glm::uvec4 tint = white_tint();
   if (tinted) tint = tint_corners(around, face, views);
@@ -228,7 +264,7 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
         lamp_sum += lamps[at]->at(static_cast<std::size_t>(face), corner_within(at, corner));
     for (std::size_t lobe = 0; lobe < shared::kSkyLobes; ++lobe) {
       std::uint32_t sum = 0;
-      for (const std::size_t at : about) sum += views[at][lobe];
+      for (const std::size_t at : about) sum += views[at].lobes[lobe];
       words[2 * corner + lobe / 4] |= (sum / count + 128) >> 8 << (8 * (lobe % 4));
     }
     lamp_words[static_cast<int>(corner)] =
@@ -242,7 +278,7 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
   if (tints_.any()) texels.push_back(tint);
 }
 
-ChunkSky SkyTransfer::faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const {
+ChunkSky SkyTransfer::faces_of(IVec3 chunk, std::span<const shared::Quad> quads) {
   const IVec3 corner = corner_of(chunk);
   const auto append = [&](const DrawnFace& face, std::vector<glm::uvec4>& texels) {
     append_record(corner + face.voxel + to_front(face), face.direction, face.plant, texels);
@@ -253,6 +289,7 @@ ChunkSky SkyTransfer::faces_of(IVec3 chunk, std::span<const shared::Quad> quads)
 
 const SkyTransfer::Skies& SkyTransfer::make_faces() {
   skies_.clear();
+  openings_.take_lit();
   for (const auto& [at, chunk] : chunks_)
     if (!chunk->quads.empty())
       skies_.emplace(at, std::make_shared<const ChunkSky>(faces_of(at, chunk->quads)));

@@ -76,7 +76,8 @@ SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo,
     : chunks_(std::move(chunks)),
       air_(air_volume_of(chunks_, 2 + spare)),
       lines_(air_),
-      tints_(air_, lines_, wanted_) {
+      tints_(air_, lines_, wanted_),
+      openings_(air_, lines_, wanted_, seen_) {
   const IVec3 low = air_.opaque.low(), size = air_.opaque.size();
   if (size.x == 0) return;
   VoxelBits wanted(low, size, false);
@@ -213,8 +214,8 @@ void SkyTransfer::spread(const Lamp& lamp, LampLightMap& into) const {
 }
 
 std::size_t SkyTransfer::bytes() const {
-  return seen_.bytes() + lamp_light_.bytes() + all_lamps_.bytes() + tints_.bytes() +
-         (bounces_ ? bounces_->bytes() : 0);
+  return seen_.bytes() + openings_.bytes() + lamp_light_.bytes() + all_lamps_.bytes() +
+         tints_.bytes() + (bounces_ ? bounces_->bytes() : 0);
 }
 
 void SkyTransfer::follow_bounces(int step, int part) {

@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "world/light/air_volume.h"
+#include "world/light/base/face_records.h"
 #include "world/light/bounce_light.h"
-#include "world/light/face_records.h"
 #include "world/light/glass_tints.h"
+#include "world/light/opening_rays.h"
 
 namespace skerry::world {
 
@@ -22,12 +23,12 @@ namespace skerry::world {
 /// key directions (BounceLight) alone, whatever the order of calls and the threads.
 ///
 /// A face sees the sky along one of the 64 lattice vectors of its hemisphere when the line from its
-/// middle along it (line_voxels), over and over again, passes air only. Such a line's voxels hang
-/// together by their faces: what is sealed off by blocks that meet at faces, edges or corners sees
-/// no sky at all. Leaves stop a ray in half of their voxels. Stained glass stops none, and takes of
-/// the light along each what Beer's law says. A face's corner has the mean of the voxels about it
-/// that are in front of the face and connected to each other by their faces, each as if it were
-/// before a face.
+/// middle along it (line_voxels), over and over again, passes air only. Where few of them do, rays
+/// say more of it (OpeningRays). A line's voxels hang together by their faces: what is sealed off
+/// by blocks that meet at faces, edges or corners sees no sky at all. Leaves stop a ray in half of
+/// their voxels. Stained glass stops none, and takes of the light along each what Beer's law says.
+/// A face's corner has the mean of the voxels about it that are in front of the face and connected
+/// to each other by their faces, each as if it were before a face.
 class SkyTransfer {
  public:
   /// @param albedo by block id; empty: no light is followed from face to face. It must outlive
@@ -89,6 +90,7 @@ class SkyTransfer {
     }
   };
   struct Around;
+  struct View;
   class Edit;
   Around around(IVec3 front, const FaceAxes& axes) const;
   void look_along(std::size_t fan, int pattern, const VoxelBits& open, VoxelBits& passed);
@@ -123,12 +125,12 @@ class SkyTransfer {
   }
   void spread(const Lamp& lamp, LampLightMap& into) const;
   Corners bounced(const Around& around, int face, bool plant) const;
-  glm::uvec4 tint_corners(const Around& around, int face,
-                          std::span<std::array<std::uint32_t, shared::kSkyLobes>> views) const;
+  View view_of(IVec3 voxel, int face);
+  glm::uvec4 tint_corners(const Around& around, int face, std::span<View> views) const;
   RecordParts record_parts() const { return {bounces_ && bounces_->is_keyed(), tints_.any()}; }
-  ChunkSky faces_of(IVec3 chunk, std::span<const shared::Quad> quads) const;
+  ChunkSky faces_of(IVec3 chunk, std::span<const shared::Quad> quads);
   /// Its texels: those of record_parts().
-  void append_record(IVec3 front, int face, bool plant, std::vector<glm::uvec4>& texels) const;
+  void append_record(IVec3 front, int face, bool plant, std::vector<glm::uvec4>& texels);
 
   LightChunks chunks_;
   AirVolume air_;
@@ -136,6 +138,7 @@ class SkyTransfer {
   VoxelIndex wanted_;  // voxels whose view is kept
   SeenSky seen_;
   GlassTints tints_;
+  OpeningRays openings_;
   LampLightMap lamp_light_;  // of weak lamps
   LampLightMap all_lamps_;   // whose light is followed further
   std::optional<BounceLight> bounces_;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
-#include "world/light/face_changes.h"
+#include "world/light/base/face_changes.h"
 #include "world/light/sky_transfer.h"
 #include "world/voxel/blocks.h"
 #include "world/voxel/chunk.h"
@@ -53,6 +53,7 @@ class SkyTransfer::Edit {
     if (had_glass && !of_.tints_.any()) return false;  // records are of other sizes
     take_faces();
     look_again();
+    look_through_openings();
     spread_again();
     if (of_.bounces_)
       for (const BounceLight::Changed& face :
@@ -165,6 +166,8 @@ class SkyTransfer::Edit {
     of_.lamp_light_.set(number, {});
     of_.all_lamps_.set(number, {});
     of_.tints_.forget(number);
+    of_.openings_.forget(voxel);
+    gone_.push_back(voxel);
     if (of_.bounces_)
       for (int direction = 0; direction < 6; ++direction)
         for (const bool plant : {false, true}) of_.bounces_->remove_face(voxel, direction, plant);
@@ -260,6 +263,22 @@ class SkyTransfer::Edit {
         } while (of_.lines_.inside(from) && !of_.lines_.stopped(from, number));
       }
     }
+  }
+
+  /// Rays through openings, and where they are asked.
+  void look_through_openings() {
+    for (const OpeningRays::Face& face : of_.openings_.changed(voxels_))
+      redo_about(face.front, face.face);
+    Kept near;  // where rays may be asked from now on, or no longer
+    for (const std::vector<IVec3>* voxels : {&lit_.voxels, &gone_})
+      for (const IVec3& voxel : *voxels) {
+        if (!of_.openings_.retake_lit(voxel)) continue;
+        for (int y = -OpeningRays::kNear; y <= OpeningRays::kNear; ++y)
+          for (int x = -OpeningRays::kNear; x <= OpeningRays::kNear; ++x)
+            for (int z = -OpeningRays::kNear; z <= OpeningRays::kNear; ++z)
+              near.add(of_.wanted_, voxel + IVec3{x, y, z});
+      }
+    for (const IVec3& voxel : near.voxels) redo_around(voxel);
   }
 
   struct Ending {
@@ -512,6 +531,7 @@ class SkyTransfer::Edit {
   std::vector<IVec3> voxels_;                         // whose bits have changed
   std::vector<Face> came_, went_, turned_;            // faces of edited chunks, see FaceChanges
   std::vector<IVec3> wanted_;                         // voxels whose view is kept from now on
+  std::vector<IVec3> gone_;                           // those whose view is not
   std::vector<IVec3> through_;                        // more voxels to which lines may have changed
   Kept fronts_;                                       // before new faces
   Kept lit_;                                          // see changed_at()

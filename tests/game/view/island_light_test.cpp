@@ -13,7 +13,7 @@
 #include "game/view/light_chunk.h"
 #include "game/view/materials.h"
 #include "world/islands/world.h"
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 
 namespace skerry::game {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "tests/world/light/voxel_rooms.h"
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 #include "world/light/glass_tints.h"
 #include "world/voxel/blocks.h"
 

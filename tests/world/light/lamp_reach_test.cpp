@@ -9,7 +9,7 @@
 #include <random>
 
 #include "tests/world/light/voxel_rooms.h"
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 
 namespace skerry::world {
 namespace {

@@ -355,6 +355,50 @@ TEST(SkyTransferEdit, FollowsLeavesThatComeAndGo) {
   }
 }
 
+// Rooms with windows, of air or of glass, in whose way blocks come and go: rays through them are
+// followed, and where they are asked changes too.
+TEST(SkyTransferEdit, FollowsWhatIsSeenThroughWindows) {
+  for (const bool stained : {false, true}) {
+    std::mt19937 random(stained ? 5 : 2);
+    const auto place = [&](int low, int high) {
+      return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
+    };
+    Voxels stone;
+    Glass glass;
+    for (int x = 10; x <= 22; ++x)
+      for (int y = 20; y <= 27; ++y)
+        for (int z = 58; z <= 70; ++z)
+          if (x == 10 || x == 22 || y == 20 || y == 27 || z == 58 || z == 70)
+            stone.insert({x, y, z});
+    for (int y = 22; y <= 24; ++y)
+      for (int z = 62; z <= 65; ++z) {
+        stone.erase({10, y, z});
+        if (stained) glass[{10, y, z}] = block::kRedGlass;
+      }
+    stone.erase({16, 27, 66});
+    LightChunks chunks = chunks_of(stone, {}, {}, glass);
+    auto edited = looked_at(chunks, colours(), 16);
+    std::size_t changes = 0;
+    for (int i = 0; i < 60; ++i) {
+      // In the room, in its walls, before the window; now and then a wall of it.
+      const int count = i % 10 == 9 ? 20 : 1;
+      for (int k = 0; k < count; ++k) {
+        const IVec3 at{place(4, 22), place(20, 27), place(58, 70)};
+        if (glass.erase(at) == 0 && !stone.insert(at).second) stone.erase(at);
+        if (stained && i % 4 == 3 && !stone.contains(at)) glass[at] = block::kRedGlass;
+      }
+      const LightChunks now = with_what_stays(chunks, chunks_of(stone, {}, {}, glass));
+      const SkyTransfer::Skies before = edited->faces();
+      if (!edited->edit(now)) edited = looked_at(now, colours(), 16);
+      chunks = now;
+      ASSERT_EQ(differences(looked_at(chunks)->faces(), edited->faces()), 0u)
+          << i << (stained ? ", stained" : "");
+      changes += differences(before, edited->faces());
+    }
+    EXPECT_GT(changes, 1000u);
+  }
+}
+
 // A court with a wall, leaves of grass, a lamp and panes: voxels come and go, and the sun moves on.
 TEST(SkyTransferEdit, FollowsABodyThatMovesOn) {
   std::mt19937 random(6);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "world/light/air_volume.h"
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 #include "world/light/sky_transfer.h"
 #include "world/mesh/mesh.h"
 #include "world/voxel/blocks.h"

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 
 namespace skerry::world {
 

@@ -1,4 +1,4 @@
-#include "world/light/face_records.h"
+#include "world/light/base/face_records.h"
 
 #include <algorithm>
 #include <array>

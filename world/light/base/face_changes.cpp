@@ -1,4 +1,4 @@
-#include "world/light/face_changes.h"
+#include "world/light/base/face_changes.h"
 
 #include <algorithm>
 #include <array>

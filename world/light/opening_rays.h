@@ -1,0 +1,100 @@
+#pragma once
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "world/light/air_volume.h"
+#include "world/light/base/seen_sky.h"
+#include "world/light/lattice_lines.h"
+#include "world/light/voxel_index.h"
+
+namespace skerry::world {
+
+/// What faces see of the sky where little of it is open to them: through windows, doors, the mouths
+/// of caves. Of the 64 lattice vectors of a face few meet a window, the same from all faces, and
+/// walls about it would have patches that all see it beside patches that none do. Where few lines
+/// see the sky, 64 rays from the face's middle are asked in their place. There are eight sets of
+/// them, by whether the voxel's coordinates are even or odd, so that the four voxels at a record's
+/// corner have 256 together.
+///
+/// A ray passes from voxel to voxel by their faces, so that what is sealed off by blocks that meet
+/// at edges or corners stays dark, and is stopped where a line would be (decision 0087).
+class OpeningRays {
+ public:
+  static constexpr std::size_t kRays = 64;
+  /// Of a face's lines, the most that see the sky where rays are asked.
+  static constexpr int kFewLines = 8;
+  /// Voxels, along each axis, within which some line must see the sky: elsewhere it is dark.
+  static constexpr int kNear = 2;
+
+  /// All must outlive this.
+  OpeningRays(const AirVolume& air, const LatticeLines& lines, const VoxelIndex& wanted,
+              const SeenSky& seen);
+
+  /// Takes down which voxels see the sky, after all lines have been looked along.
+  void take_lit();
+  /// Whether rays are asked for a face, which looks to the voxel that lies before it.
+  bool asks(IVec3 front, int face) const;
+  /// A bit a ray: which see the sky. What is found is kept. @pre asks(front, face)
+  std::uint64_t seen(IVec3 front, int face);
+  /// Whether one of them passes stained glass. @pre seen(front, face) was asked
+  bool passes_glass(IVec3 front, int face) const;
+  /// What glass leaves of the light that comes along a ray to the sky, 0..1. @pre ray is seen
+  glm::vec3 left_by_glass_on(IVec3 front, int face, std::size_t ray) const;
+
+  /// Shares of a face's lobes that are seen, of 65280. @param rays of seen(front, face)
+  static std::array<std::uint32_t, shared::kSkyLobes> lobes(IVec3 front, int face,
+                                                            std::uint64_t rays);
+  static std::size_t lobe_of_ray(IVec3 front, int face, std::size_t ray);
+
+  // --- Edits ---
+
+  /// What lies in a voxel has changed, or its view is no longer kept.
+  void forget(IVec3 front);
+  struct Face {
+    IVec3 front{};
+    int face = 0;
+  };
+  /// After voxels have changed: brings what is kept up to date. @return the faces that see other
+  /// parts of the sky, or through other glass.
+  std::vector<Face> changed(std::span<const IVec3> voxels);
+  /// After lines of a voxel have changed or its view is no longer kept: whether it sees the sky is
+  /// other now.
+  bool retake_lit(IVec3 voxel);
+
+  std::size_t bytes() const;
+
+ private:
+  struct Known {
+    IVec3 front{};
+    int face = 0;
+    std::uint64_t rays = 0, glass = 0;  // those that see the sky, and that pass glass on the way
+  };
+  static std::uint64_t key_of(IVec3 front, int face);
+  bool sees_sky_at(std::size_t number) const;
+  bool is_near_lit(IVec3 voxel) const;
+  /// Calls fn(block, voxels of the ray in it) for stained glass on the way.
+  /// @return whether the ray comes to the sky.
+  template <class Fn>
+  bool follow(IVec3 front, int face, std::size_t ray, const Fn& fn) const;
+  /// The same where there is no glass, by the planes' order that each ray has from all places.
+  bool comes_to_sky(IVec3 front, int face, std::size_t ray) const;
+  /// Follows these again.
+  void look(Known& face, std::uint64_t rays) const;
+  /// Those that may touch a voxel.
+  std::uint64_t rays_to(const Known& face, IVec3 voxel) const;
+
+  const AirVolume& air_;
+  const LatticeLines& lines_;
+  const VoxelIndex& wanted_;
+  const SeenSky& seen_;
+  VoxelBits lit_;
+  std::vector<Known> known_;
+  std::unordered_map<std::uint64_t, std::uint32_t> places_;  // in known_, by key_of()
+};
+
+}  // namespace skerry::world
