@@ -21,8 +21,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 #include "include/surface/media.glsl"
-
-vec3 glass_extinction(uint block) { return materials[block].liquid != 0u ? vec3(0.0) : extinction(materials[block]); }
+#include "include/light/listed_glass.glsl"
 
 void main() {
   bool entering = gl_FrontFacing;

@@ -134,7 +134,7 @@ SHARED_CONST uint kTileShaftsBinding = 89u;  // TileShafts[], of 8x8 tiles
 
 SHARED_CONST uint kBentLightBinding = 90u;  // see bend_rays.comp
 
-SHARED_CONST uint kGlassMapsBinding = 91u;  // see sum_glass.frag
+SHARED_CONST uint kGlassMapsBinding = 91u;  // see sum_glass.frag, list_glass.frag
 
 SHARED_CONST uint kLayerTilesBinding = 92u;  // TileDispatch[] of tiles that show water or glass
 

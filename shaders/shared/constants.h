@@ -110,6 +110,10 @@ SHARED_CONST uint kMixedGroup = 16u;  // one a row of a square
 SHARED_CONST uint kBentIntoWater = 1u;
 SHARED_CONST uint kBentIntoAir = 2u;
 
+// Of list_glass.frag: surfaces that it finds, and texels along one of a map of glass.
+SHARED_CONST uint kListedGlass = 4u;
+SHARED_CONST float kListedTexels = 0.5f;
+
 // How much steeper than linear an enlarged picture passes from one pixel to the next.
 SHARED_CONST float kEnlargeSlope = 1.5f;
 SHARED_END

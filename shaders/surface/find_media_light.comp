@@ -27,7 +27,7 @@ layout(constant_id = kGlassConstant) const bool kGlass = false;            // th
 #include "include/scene/layers.glsl"
 #include "include/surface/ripples.glsl"
 #include "include/surface/packed_share.glsl"
-#include "include/light/through_glass.glsl"
+#include "include/light/glass_sums.glsl"
 
 // @param opaque depth.
 uint water_above(uvec2 pixel, float opaque) {
@@ -47,6 +47,6 @@ void main() {
   float opaque = texelFetch(depths, ivec2(pixel), 0).r;
   uvec2 found = uvec2(0u, packed_share(vec3(1.0)));
   if (kUnderWater) found.x = water_above(pixel, opaque);
-  if (kGlass && opaque > 0.0) found.y = packed_share(share_through_glass(pixel_ray(pixel) * view_distance(opaque, frame.near_plane)));
+  if (kGlass && opaque > 0.0) found.y = packed_share(share_through_glass(pixel_ray(pixel) * view_distance(opaque, frame.near_plane), vec3(0.0)));
   imageStore(media_light, ivec2(pixel), uvec4(found, 0u, 0u));
 }

@@ -24,6 +24,8 @@ layout(binding = kLayerDepthsBinding + 1u) uniform sampler2D layer_depths_1;
 layout(binding = kLayerDepthsBinding + 2u) uniform sampler2D layer_depths_2;
 layout(binding = kLayerDepthsBinding + 3u) uniform sampler2D layer_depths_3;
 
+layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 3u;
+
 #include "include/scene/layers.glsl"
 
 float layer_depth(uint k, ivec2 pixel) {
@@ -35,13 +37,13 @@ float layer_depth(uint k, ivec2 pixel) {
 uint layer_surface(uint k, ivec2 pixel) {
   return layer_depth(k, pixel) > 0.0 ? texelFetch(layer_surfaces, ivec3(pixel, k), 0).r : 0u;
 }
+// What find_layer_light.comp has found for a layer, or behind them all for the medium before the eye.
+uint share_of_layer(uint k, ivec2 pixel) { return texelFetch(layer_surfaces, ivec3(pixel, kWaterLayers + k), 0).r; }
 
 layout(binding = kMirroredCloudsBinding) uniform sampler2D mirrored_clouds;
 layout(constant_id = kMirroredCloudsConstant) const bool kMirroredClouds = false;  // whether they are known
 
 layout(constant_id = kToPictureConstant) const bool kCounted = false;  // all pixels are in the picture and in the counts already
-layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 3u;
-
 layout(binding = kTailDepthsBinding) uniform sampler2D tail_depths;
 layout(binding = kTailLightBinding) uniform sampler2D tail_light;
 layout(constant_id = kTailConstant) const bool kTail = false;  // they are known where the last layer has a surface
@@ -57,6 +59,7 @@ layout(constant_id = kTailConstant) const bool kTail = false;  // they are known
 #include "include/light/indirect.glsl"
 #include "include/surface/ripples.glsl"
 #include "include/sky/mirrored_clouds.glsl"
+#include "include/surface/packed_share.glsl"
 #include "include/surface/water.glsl"
 
 void main() {

@@ -25,20 +25,22 @@ std::uint32_t brighter_body(const Celestial& sky) {
 GlassPlan plan_glass(const FrameInput& input, const RenderSettings& settings,
                      std::span<const ActiveCascade> cascades,
                      std::span<const shared::Section> sections,
-                     const std::map<std::uint32_t, VoxelBox>& boxes) {
+                     const std::map<std::uint32_t, GlassBox>& boxes) {
   GlassPlan plan;
   if (boxes.empty() || settings.leave_out.has(Feature::kWater)) return plan;
   plan.body = brighter_body(input.sky);
   for (const ActiveCascade& active : cascades) {
     if (static_cast<std::uint32_t>(active.body) != plan.body) continue;
     TexelBox shown;
-    for (const auto& [slot, box] : boxes) {
+    bool stained = false;
+    for (const auto& [slot, glass] : boxes) {
       shared::Section section = sections[slot];
       if (section.range_end[shared::kRangeCount - 1] == 0 || section.island >= input.islands.size())
         continue;
-      section.bounds_min = box.low, section.bounds_max = box.high;
+      section.bounds_min = glass.box.low, section.bounds_max = glass.box.high;
       shown.add(
           box_of(section, input.islands[section.island], input.camera.position, active.cascade));
+      stained |= glass.stained;
     }
     if (shown.empty()) continue;
     const auto shadow_edge = static_cast<std::uint32_t>(active.cascade.key.map_size);
@@ -50,6 +52,7 @@ GlassPlan plan_glass(const FrameInput& input, const RenderSettings& settings,
     const TexelBox texels{glm::floor(shown.low / along),
                           glm::min(glm::ceil(shown.high / along), glm::dvec2(plan.edge))};
     if (texels.empty()) continue;
+    plan.stained |= stained;
     plan.maps.push_back(
         {active.slot, texels.rect(), shown.rect(), active.to_light, active.cascade});
   }

@@ -27,6 +27,7 @@ struct GlassPlan {
   /// Texels along one of a shadow map: the inverse of an even number. The middle of each is that of
   /// a shadow map's texel, so that what stands before it is known for the same ray.
   float per_shadow_texel = 1.0f;
+  bool stained = false;        ///< some of it colours light
   std::vector<GlassMap> maps;  ///< one a layer; empty: no glass stands before what is lit
 };
 
@@ -36,6 +37,6 @@ struct GlassPlan {
 GlassPlan plan_glass(const FrameInput& input, const RenderSettings& settings,
                      std::span<const ActiveCascade> cascades,
                      std::span<const shared::Section> sections,
-                     const std::map<std::uint32_t, VoxelBox>& boxes);
+                     const std::map<std::uint32_t, GlassBox>& boxes);
 
 }  // namespace skerry::render

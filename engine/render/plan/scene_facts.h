@@ -18,7 +18,7 @@ struct SceneFacts {
   std::span<const shared::Section> sections;    ///< one a slot; free slots have no ranges
   std::span<const VoxelBox> translucent_boxes;  ///< of the sections' water and glass, one a slot
   /// GeometryStore::glass_boxes(); null: there is none.
-  const std::map<std::uint32_t, VoxelBox>* glass_boxes = nullptr;
+  const std::map<std::uint32_t, GlassBox>* glass_boxes = nullptr;
   std::uint32_t sections_resident = 0, sections_blended = 0;
   std::uint64_t quads_resident = 0, translucent_quads = 0, cutout_quads = 0;
   const GeometryChanges* changes = nullptr;  ///< never null in a plan

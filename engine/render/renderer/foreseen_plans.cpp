@@ -22,6 +22,7 @@ struct Supposed {
   bool clouds = true;      // that there are, are in view
   bool cloud_sky = false;  // lights them by itself
   bool blended = false;    // sections that change their level are in view
+  bool stained = false;    // some of the glass
 };
 
 constexpr std::uint32_t kTorches = 1u << shared::kLightPoint;  // what grows and is built
@@ -101,6 +102,7 @@ void suppose(FramePlan& plan, const FrameNeeds& needs, const Supposed& what) {
       what.water == Water::kAroundEye && features.has(Feature::kWater) ? kSomeBlock : 0;
   plan.glass.edge = 1;
   plan.glass.maps.assign(what.glass && !plan.shadows.cascades.empty() ? 1 : 0, {});
+  plan.glass.stained = what.stained;
   for (GlassMap& map : plan.glass.maps) map.area = {{0, 0}, {1, 1}};
   plan.contents = {features, {}, plan.tables.constants.layers_area, {}};
   plan.contents.blended = what.blended;
@@ -170,7 +172,12 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
   // What players build comes last.
   for (const std::uint32_t bodies : {1u, 2u, 3u})
     for (const std::uint32_t lights : kinds)
-      visit_with({.bodies = bodies, .lights = lights, .water = Water::kInView, .glass = true});
+      for (const bool stained : {false, true})
+        visit_with({.bodies = bodies,
+                    .lights = lights,
+                    .water = Water::kInView,
+                    .glass = true,
+                    .stained = stained});
 }
 
 }  // namespace skerry::render

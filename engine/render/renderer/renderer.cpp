@@ -106,7 +106,7 @@ struct Renderer::State {
   FrameResources resources;
   std::uint64_t upload_budget;
   MemoryBudget world_budget;  // outlives the stores
-  BlockSet glass;
+  GlassBlocks glass;
   std::unique_ptr<GeometryStore> geometry;
   std::unique_ptr<OccupancyStore> occupancy;  // null: never asked for
   std::unique_ptr<IndirectStore> indirect;    // null: never asked for

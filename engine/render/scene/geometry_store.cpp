@@ -1,6 +1,7 @@
 #include "engine/render/scene/geometry_store.h"
 
 #include <algorithm>
+#include <glm/vector_relational.hpp>
 #include <iterator>
 
 #include "engine/core/check.h"
@@ -40,17 +41,21 @@ bool casts(const shared::Section& section) {
 
 }  // namespace
 
-BlockSet glass_among(std::span<const shared::Material> materials) {
-  BlockSet out;
-  for (std::size_t id = 0; id < std::min(materials.size(), out.size()); ++id)
-    out[id] = materials[id].liquid == 0 &&
-              (materials[id].absorption != glm::vec3(0.0f) || materials[id].scattering != 0.0f);
+GlassBlocks glass_among(std::span<const shared::Material> materials) {
+  constexpr float kLeastStain = 0.1f;  // absorption a block
+  GlassBlocks out;
+  for (std::size_t id = 0; id < std::min(materials.size(), out.all.size()); ++id) {
+    const shared::Material& m = materials[id];
+    if (m.liquid != 0) continue;
+    out.all[id] = m.absorption != glm::vec3(0.0f) || m.scattering != 0.0f;
+    out.stained[id] = glm::any(glm::greaterThanEqual(m.absorption, glm::vec3(kLeastStain)));
+  }
   return out;
 }
 
 Result<std::unique_ptr<GeometryStore>> GeometryStore::create(gpu::Device& device,
                                                              MemoryBudget& budget,
-                                                             const BlockSet& glass,
+                                                             const GlassBlocks& glass,
                                                              std::uint32_t arena_quads) {
   arena_quads =
       budget.first_elements(sizeof(shared::Quad), std::min(arena_quads, kLeastQuads), arena_quads);
@@ -97,9 +102,12 @@ Result<SectionId> GeometryStore::add(gpu::Uploader& uploader, shared::Section se
   if (!translucent.empty()) translucent_boxes_[slot] = box_of(translucent);
   scratch_.clear();
   std::ranges::copy_if(translucent, std::back_inserter(scratch_), [&](const shared::Quad& quad) {
-    return glass_[shared::surface_block(quad.material)];
+    return glass_.all[shared::surface_block(quad.material)];
   });
-  if (!scratch_.empty()) glass_boxes_[slot] = box_of(scratch_);
+  if (!scratch_.empty())
+    glass_boxes_[slot] = {box_of(scratch_), std::ranges::any_of(scratch_, [&](auto& quad) {
+                            return glass_.stained[shared::surface_block(quad.material)];
+                          })};
   const std::span placed = uploader.place<shared::Quad>(
       quads_, std::uint64_t{range->first} * sizeof(shared::Quad), quads.size());
   std::ranges::transform(quads, placed.begin(), [&](const shared::Quad& quad) {

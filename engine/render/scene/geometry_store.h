@@ -29,8 +29,13 @@ inline constexpr DrawLimits kUsualDraws{2 * kUsualSections, kUsualSections, kUsu
 
 using BlockSet = std::bitset<shared::kMaxMaterials>;
 
-/// Blocks that take light which passes, and are no liquid. @param materials by block id.
-BlockSet glass_among(std::span<const shared::Material> materials);
+/// Blocks that take light which passes, and are no liquid.
+struct GlassBlocks {
+  BlockSet all;
+  BlockSet stained;  ///< that take a tenth of a colour or more a block
+};
+/// @param materials by block id.
+GlassBlocks glass_among(std::span<const shared::Material> materials);
 
 /// A resident chunk mesh; only GeometryStore makes one.
 struct SectionId {
@@ -48,7 +53,7 @@ class GeometryStore {
   /// @param arena_quads capacity to begin with, less if that is much of the budget; it doubles when
   /// full, up to the device's largest storage buffer and what the budget has left.
   static Result<std::unique_ptr<GeometryStore>> create(gpu::Device& device, MemoryBudget& budget,
-                                                       const BlockSet& glass,
+                                                       const GlassBlocks& glass,
                                                        std::uint32_t arena_quads);
   ~GeometryStore();
 
@@ -95,9 +100,8 @@ class GeometryStore {
   std::span<const shared::Section> records() const { return records_; }
   /// Of each slot's translucent quads; of any value where it has none.
   std::span<const VoxelBox> translucent_boxes() const { return translucent_boxes_; }
-  /// By slot, of sections that have quads of glass, these quads' box; of those that are not shown,
-  /// too.
-  const std::map<std::uint32_t, VoxelBox>& glass_boxes() const { return glass_boxes_; }
+  /// By slot, of sections that have quads of glass; of those that are not shown, too.
+  const std::map<std::uint32_t, GlassBox>& glass_boxes() const { return glass_boxes_; }
   /// For kept shadow maps: what invalidates them.
   const GeometryChanges& changes() const { return changes_; }
 
@@ -114,8 +118,8 @@ class GeometryStore {
   gpu::Buffer quads_, sections_;
   std::vector<shared::Section> records_;  // CPU copy, one a slot; free slots have no ranges
   std::vector<VoxelBox> translucent_boxes_;
-  BlockSet glass_;
-  std::map<std::uint32_t, VoxelBox> glass_boxes_;
+  GlassBlocks glass_;
+  std::map<std::uint32_t, GlassBox> glass_boxes_;
   std::map<std::uint32_t, shared::Section> hidden_;  // by slot, whose records have no ranges
   std::vector<std::uint32_t> free_slots_;
   std::vector<shared::Quad> scratch_;

@@ -20,6 +20,12 @@ struct VoxelBox {
   }
 };
 
+/// Of a section's quads of glass.
+struct GlassBox {
+  VoxelBox box;
+  bool stained = false;  ///< some are
+};
+
 /// The tight box of faces. @param quads not empty.
 VoxelBox box_of(std::span<const shared::Quad> quads);
 

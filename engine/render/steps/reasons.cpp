@@ -39,6 +39,12 @@ const char* needs_glass(const FramePlan& plan) {
   return plan.glass.maps.empty() ? "no glass stands before what sun or moon light" : nullptr;
 }
 
+const char* needs_listed_glass(const FramePlan& plan) {
+  if (const char* why = needs_glass(plan)) return why;
+  if (!plan.glass.stained) return "no glass is stained";
+  return needs_water(plan);
+}
+
 const char* needs_media_light(const FramePlan& plan) {
   return needs_glass(plan) ? needs_water(plan) : nullptr;
 }

@@ -15,6 +15,8 @@ const char* needs_lit_surfaces(const FramePlan& plan);
 const char* needs_water(const FramePlan& plan);
 /// Glass that takes light of sun or moon.
 const char* needs_glass(const FramePlan& plan);
+/// Glass that takes it on its way to water or glass in view.
+const char* needs_listed_glass(const FramePlan& plan);
 /// One or the other.
 const char* needs_media_light(const FramePlan& plan);
 const char* needs_clouds(const FramePlan& plan);

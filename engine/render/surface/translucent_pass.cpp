@@ -25,12 +25,12 @@ constexpr float kAcrossShores = 4.0f;
 
 TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                                               const SceneRefs& scene, const CulledDraws& draws,
-                                              const Geometry& geometry, int layers,
-                                              bool inside_medium) {
+                                              const Geometry& geometry, const Kept& kept) {
   static constexpr std::array<const char*, 4> kNames{"draw_translucent_0", "draw_translucent_1",
                                                      "draw_translucent_2", "draw_translucent_3"};
   Layers out;
-  out.count = static_cast<std::uint32_t>(layers);
+  out.count = static_cast<std::uint32_t>(kept.layers);
+  out.shares = kept.shares;
   const gpu::ImageRef opaque_depth = geometry.depth();
   const glm::uvec4 shown = scene.layers_area;
   const VkRect2D area{{static_cast<std::int32_t>(shown.x), static_cast<std::int32_t>(shown.y)},
@@ -38,7 +38,7 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
   out.surfaces = graph.create(gpu::ImageDesc{.name = "translucent surfaces",
                                              .format = VK_FORMAT_R32_UINT,
                                              .extent = scene.size,
-                                             .layers = out.count,
+                                             .layers = kept.shares ? 2 * out.count + 1 : out.count,
                                              .array = true});
   for (std::uint32_t k = 0; k < out.count; ++k) {
     gpu::ImageRef& depth = out.depth[k];
@@ -74,9 +74,11 @@ TranslucentPass::Layers TranslucentPass::draw(gpu::FrameGraph& graph, gpu::Pipel
           draw_list(c, scene, draws, 0, DrawList::kTranslucent);
         });
   }
-  out.tiles = classify_tiles(
-      graph, pipelines, scene, "classify_translucent_tiles",
-      {.words = out.surfaces, .depth = out.depth[0], .area = shown, .area_alone = !inside_medium});
+  out.tiles = classify_tiles(graph, pipelines, scene, "classify_translucent_tiles",
+                             {.words = out.surfaces,
+                              .depth = out.depth[0],
+                              .area = shown,
+                              .area_alone = !kept.inside_medium});
   return out;
 }
 
@@ -101,6 +103,7 @@ class LayerReads {
     std::vector<gpu::SpecConstant> own = clouds_.with_clouds(
         with_light({{shared::kWaterLayersConstant, layers_.count}}, scene_, bool{maps_}));
     if (layers_.mirrored_clouds) own.push_back({shared::kMirroredCloudsConstant, 1});
+    if (layers_.shares) own.push_back({shared::kGlassConstant, 1});
     if (layers_.tail_depths) own.push_back({shared::kTailConstant, 1});
     if (mirrors_) own.push_back({shared::kMirrorWorldConstant, 1});
     if (foam_) own.push_back({shared::kFoamConstant, 1});

@@ -28,8 +28,14 @@ struct LitPoint {       // a point of a surface, or in the open
   vec3 to_eye;
   float roughness;
   uint word;            // of the surface; 0 in the open
-  Depth depth;          // under water
+  Depth depth;          // under water and behind glass
 };
+
+// Of a layer, or of the medium before the eye: the light that glass lets through to it.
+Depth behind_glass(Depth depth, uint k, uvec2 pixel) {
+  if (kGlass) depth.through_glass = unpacked_share(share_of_layer(k, ivec2(pixel)));
+  return depth;
+}
 
 void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoint at) {
   Body body = frame.bodies[index];
@@ -37,6 +43,7 @@ void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoi
   float n_dot_l = dot(at.n, way.to_light), cosine = dot(at.n, body.to_light);
   float visibility = cosine > 0.0 ? body_visibility(first_cascade, near_surface(at.depth, at.p, way.to_light), at.n, cosine) : 0.0;
   vec3 irradiance = body.irradiance * way.share * (visibility * light_through_clouds(index, at.p));
+  if (kGlass && index == frame.glass_body) irradiance *= at.depth.through_glass;
   r.light += irradiance * max(n_dot_l, 0.0);
   r.mirrored += glitter(irradiance, way.to_light, at.shading_normal, at.to_eye, at.roughness);
   r.any = max(r.any, visibility);
@@ -151,7 +158,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   float at = 0.0;  // blocks along the ray
   if (medium != 0u) {
     const vec3 up = vec3(0.0, 1.0, 0.0);
-    Depth depth = depth_in_medium(ray / ray_length * 0.5);
+    Depth depth = behind_glass(depth_in_medium(ray / ray_length * 0.5), kWaterLayers, pixel);
     light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, 0.1, 0u, depth)).light;
     if (frame.medium_surface != 0u) sky_light = frame.medium_light * sky_about(frame.medium_surface_place, frame.medium_surface).irradiance;
     light_in += sky_light * sky_share(depth);
@@ -188,7 +195,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     float cosine = clamp(dot(shading, to_eye), 0.02, 1.0);
     float reflected = fresnel(cosine, !entering, kWaterIndex);
     vec3 mirror = mirrored_ray(to_eye, shading, n);
-    LitPoint point = LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word, no_depth());
+    LitPoint point = LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word, behind_glass(no_depth(), k, pixel));
     Reach reach = light_at(pixel, t, point);
     FaceSky around = sky_about(point.p, word);
     if (frame.camera_medium == 0u) {
