@@ -20,14 +20,15 @@ layout(binding = kLayerDepthsBinding) uniform sampler2D water_depths;
 layout(binding = kFreshPictureBinding) uniform sampler2D fresh;
 layout(binding = kKeptPicturesBinding, r32ui) uniform uimage2DArray kept_pictures;
 layout(binding = kKeptKeysBinding, r32ui) uniform uimage2DArray kept_keys;
-layout(binding = kPictureBinding, rgba8) writeonly uniform image2D picture;
+layout(binding = kPictureBinding, rgba8) uniform image2D picture;  // unless the frame is at rest, the fresh one
 layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[kEdgeDispatches]; };
-layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // that show edges, x | y << 16
+layout(scalar, binding = kEdgePixelsBinding) readonly buffer Pixels { EdgePixel pixels[]; };
 layout(push_constant, scalar) uniform Push { TemporalStep step; } push;
 
 layout(constant_id = kTranslucentConstant) const bool kTranslucent = false;  // there is water or glass
 layout(constant_id = kCloudLayerConstant) const bool kClouds = false;        // there are clouds before the sky
 layout(constant_id = kEdgesConstant) const bool kEdges = false;              // the second step
+layout(constant_id = kStoreConstant) const bool kStore = false;              // the first step keeps the frame and mixes nothing: nothing is at rest
 
 #include "include/scene/coverage.glsl"
 
@@ -78,7 +79,8 @@ vec3 kept_light(ivec2 pixel, uint slot) {
   return light * ratio / (1.0 + (ratio - 1.0) * light);
 }
 
-vec3 fresh_light(ivec2 pixel) { return light_of(texelFetch(fresh, pixel, 0).rgb); }
+vec3 own_light(ivec2 pixel) { return light_of(unpackUnorm4x8(imageLoad(kept_pictures, ivec3(pixel, push.step.slot)).r).rgb); }
+vec3 fresh_light(ivec2 pixel) { return kEdges ? own_light(pixel) : light_of(texelFetch(fresh, pixel, 0).rgb); }
 
 // Light within that of the 3x3 pixels about one, if `wanted`. As a loop without rounds it costs nothing where no pixel of a strip wants it.
 vec3 within_around(vec3 light, ivec2 pixel, bool wanted) {
@@ -169,13 +171,13 @@ vec3 mixed_at_edge(ivec2 pixel, Around a, bool changed, uint still) {
 void show(ivec2 pixel, vec3 light) { imageStore(picture, pixel, vec4(floor(sqrt(light) * 255.0 + 0.5) / 255.0, 1.0)); }
 
 void main() {
-  uvec2 tile = gl_WorkGroupID.xy;
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (kEdges) {
-    uint index = gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x;
-    if (index >= dispatches[0].tiles) return;
-    tile = uvec2(tiles[index] & 0xffffu, tiles[index] >> 16);
+    uint index = (gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
+    if (index >= dispatches[1].tiles) return;
+    uint place = pixels[index].place;
+    pixel = ivec2(place & 0xffffu, place >> 16);
   }
-  ivec2 pixel = ivec2(tile * kTileEdge + gl_LocalInvocationID.xy);
   if (any(greaterThanEqual(pixel, ivec2(frame.size)))) return;
   float depth = texelFetch(depths, pixel, 0).r;
   uint word = covered_word(imageLoad(surfaces, pixel).r, depth);
@@ -190,9 +192,11 @@ void main() {
     return;
   }
   uint key = kept_key(word, depth);
-  uint packed = packUnorm4x8(texelFetch(fresh, pixel, 0));
-  vec3 light = mixed_at_rest(pixel, packed, changed ? 0u : push.step.still);
-  show(pixel, within_around(light, pixel, seen_through && push.step.still != 0u));
+  uint packed = packUnorm4x8(kStore ? imageLoad(picture, pixel) : texelFetch(fresh, pixel, 0));
+  if (!kStore) {
+    vec3 light = mixed_at_rest(pixel, packed, changed ? 0u : push.step.still);
+    show(pixel, within_around(light, pixel, seen_through && push.step.still != 0u));
+  }
   ivec3 at = ivec3(pixel, push.step.slot);
   imageStore(kept_pictures, at, uvec4(packed));
   imageStore(kept_keys, at, uvec4(key));

@@ -51,6 +51,8 @@ struct FramePlan {
 
   bool enlarged() const { return !gpu::same_size(picture, shown); }
   bool shows_channel() const;  ///< a debug view takes the place of the lit scene
+  /// Whether the picture is mixed from it and earlier ones in an image of its own.
+  bool mixes_at_rest() const { return temporal && temporal->at_rest(); }
   bool last_part() const { return input.part + 1 == input.parts; }
   bool lights() const;   ///< the frame's lights are sorted
   bool sampled() const;  ///< light is worked out at fewer pixels than are drawn

@@ -21,6 +21,13 @@ struct TemporalPlan {
   std::vector<shared::Motion> motions{};  ///< a slot: one an island, and the sky's
   shared::TemporalStep step{};
   TemporalHistory next{};
+
+  /// Whether all pixels are mixed; if not, the rest of the picture is this frame's.
+  bool at_rest() const { return step.still != 0; }
+  /// Whether anything has moved, come or gone since any of the kept frames.
+  bool moves() const {
+    return step.kept != step.still || step.changed_area.x < step.changed_area.z;
+  }
 };
 
 /// Pixels' places sampled at rest by the frames of a history, in turn, from the pixel's centre,

@@ -16,7 +16,8 @@ struct TemporalPass {
   struct In {
     const TemporalPlan& plan;
     KeptFrames& kept;
-    gpu::Image& picture;        ///< RGBA8, of the G-buffer's size; not the one that was developed
+    gpu::Image& picture;        ///< RGBA8, of the G-buffer's size; the one that was developed
+                                ///< unless the frame is at rest
     gpu::ImageRef water_depth;  ///< nearest layer of water and glass; empty: there is none
     bool clouds;                ///< some are in view
   };

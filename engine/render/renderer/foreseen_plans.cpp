@@ -50,6 +50,8 @@ FramePlan common_of(const FramePlan& now, const FrameNeeds& needs) {
   plan.input.part = plan.input.parts - 1;
   plan.input.light_islands = kSomeIsland;
   if (!plan.temporal && !why_not_temporal(plan.input, plan.settings)) plan.temporal.emplace();
+  // One earlier frame is at rest, and one is not.
+  if (plan.temporal) plan.temporal->step.kept = 3, plan.temporal->step.still = 1;
   plan.indirect =
       needs.indirect && plan.settings.indirect != Indirect::kOff && !plan.shows_channel();
   plan.ao = needs.occupancy && plan.settings.ao_strength > 0.0f &&
@@ -137,10 +139,15 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
     visit(plan);
   }
   plan.why_one_phase = kSupposed;
-  // No other program depends on it.
+  // No other program depends on these.
   suppose(plan, needs,
           {.bodies = 3u, .lights = kTorches, .water = Water::kInView, .blended = true});
   visit(plan);
+  if (plan.temporal) {
+    plan.temporal->step.still = 0;
+    visit(plan);
+    plan.temporal->step.still = 1;
+  }
   std::vector<std::uint32_t> kinds{0, kTorches};
   if (needs.light_kinds != kTorches) kinds.push_back(needs.light_kinds);
   const auto visit_with = [&](Supposed what) {

@@ -23,6 +23,11 @@ const char* needs_mixing(const FramePlan& plan) {
   return why_not_temporal(plan.input, plan.settings);
 }
 
+const char* needs_mixed_edges(const FramePlan& plan) {
+  if (const char* why = needs_mixing(plan)) return why;
+  return plan.temporal->moves() ? nullptr : "nothing has moved";
+}
+
 }  // namespace
 
 FrameStep smooth_edges_step() {
@@ -37,7 +42,7 @@ FrameStep smooth_edges_step() {
 
 FrameStep mix_frames_step() {
   return {
-      {{needs_mixing, {"mix_at_rest", "mix_edges"}}}, [](FrameAssembly& f) {
+      {{needs_mixing, {"mix_at_rest"}}, {needs_mixed_edges, {"mix_edges"}}}, [](FrameAssembly& f) {
         const bool clouds = f.plan.clouds && f.plan.clouds->in_view;
         f.developed = TemporalPass::add(
             f.graph, f.pipelines, f.scene, *f.geometry, {*std::move(f.developed), *f.edges},

@@ -35,7 +35,7 @@ FrameStep develop_step() {
   return {{{needs_picture}, {needs_radiance, {"develop"}}}, [](FrameAssembly& f) {
             f.developed = DevelopPass::add(f.graph, f.pipelines, f.scene, *std::move(f.shaded),
                                            f.bloom ? &*f.bloom : nullptr,
-                                           f.owners.picture.fresh(f.plan.temporal.has_value()));
+                                           f.owners.picture.fresh(f.plan.mixes_at_rest()));
           }};
 }
 

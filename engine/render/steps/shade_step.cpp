@@ -22,7 +22,7 @@ void shade(FrameAssembly& f) {
   if (f.plan.geometry) from.emplace(ShadedFrom{*f.geometry, *f.shadows, f.layers, f.glass});
   f.shaded =
       ShadePass::add(f.graph, f.pipelines, f.scene, from ? &*from : nullptr, in,
-                     {f.plan.by_radiance, f.owners.picture.fresh(f.plan.temporal.has_value()),
+                     {f.plan.by_radiance, f.owners.picture.fresh(f.plan.mixes_at_rest()),
                       meters(f.plan.input, f.plan.settings) ? &f.plan.settings.meter : nullptr});
 }
 

@@ -266,7 +266,8 @@ TEST(PlanFrame, SaysWhyPicturesAreNotMixed) {
   EXPECT_STREQ(why_not(scene.plan(), "mix_edges"), "aa is not temporal");
   scene.settings.aa = Antialiasing::kTemporal;
   scene.input.exposure_ev = 0.0f;
-  EXPECT_EQ(why_not(scene.plan(), "mix_edges"), nullptr);
+  EXPECT_EQ(why_not(scene.plan(), "mix_at_rest"), nullptr);
+  EXPECT_STREQ(why_not(scene.plan(), "mix_edges"), "nothing has moved");
   EXPECT_TRUE(scene.plan().next.temporal);
   scene.input.exposure_ev.reset();
   EXPECT_STREQ(why_not(scene.plan(), "mix_edges"), "the frame chooses its own exposure");
