@@ -22,7 +22,7 @@ layout(binding = kKeptPicturesBinding, r32ui) uniform uimage2DArray kept_picture
 layout(binding = kKeptKeysBinding, r32ui) uniform uimage2DArray kept_keys;
 layout(binding = kPictureBinding, rgba8) uniform image2D picture;  // unless the frame is at rest, the fresh one
 layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[kEdgeDispatches]; };
-layout(scalar, binding = kEdgePixelsBinding) readonly buffer Pixels { EdgePixel pixels[]; };
+layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // that show edges, x | y << 16
 layout(push_constant, scalar) uniform Push { TemporalStep step; } push;
 
 layout(constant_id = kTranslucentConstant) const bool kTranslucent = false;  // there is water or glass
@@ -171,13 +171,13 @@ vec3 mixed_at_edge(ivec2 pixel, Around a, bool changed, uint still) {
 void show(ivec2 pixel, vec3 light) { imageStore(picture, pixel, vec4(floor(sqrt(light) * 255.0 + 0.5) / 255.0, 1.0)); }
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  uvec2 tile = gl_WorkGroupID.xy;
   if (kEdges) {
-    uint index = (gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * 64u + gl_LocalInvocationIndex;
-    if (index >= dispatches[1].tiles) return;
-    uint place = pixels[index].place;
-    pixel = ivec2(place & 0xffffu, place >> 16);
+    uint index = gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x;
+    if (index >= dispatches[0].tiles) return;
+    tile = uvec2(tiles[index] & 0xffffu, tiles[index] >> 16);
   }
+  ivec2 pixel = ivec2(tile * kTileEdge + gl_LocalInvocationID.xy);
   if (any(greaterThanEqual(pixel, ivec2(frame.size)))) return;
   float depth = texelFetch(depths, pixel, 0).r;
   uint word = covered_word(imageLoad(surfaces, pixel).r, depth);

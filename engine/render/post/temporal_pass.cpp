@@ -37,7 +37,7 @@ Developed TemporalPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
     graph.add_pass(
         edges ? "mix_edges" : "mix_at_rest",
         [&](gpu::PassBuilder& b) {
-          for (const gpu::BufferRef ref : {scene.frame, motions, lists.pixels, lists.dispatches})
+          for (const gpu::BufferRef ref : {scene.frame, motions, lists.tiles, lists.dispatches})
             b.read(ref, Use::kComputeRead);
           if (edges) b.read(lists.dispatches, Use::kIndirect);
           b.read(words, Use::kComputeRead);
@@ -54,7 +54,7 @@ Developed TemporalPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
           const VkSampler point = scene.point_sampler;
           gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                     gpu::texels<shared::kMotionsBinding>(motions),
-                    gpu::storage<shared::kEdgePixelsBinding>(lists.pixels),
+                    gpu::storage<shared::kTilesBinding>(lists.tiles),
                     gpu::storage<shared::kTileDispatchesBinding>(lists.dispatches),
                     gpu::storage<shared::kSurfacesBinding>(words),
                     gpu::sampled<shared::kDepthsBinding>(depth, point),
@@ -64,7 +64,7 @@ Developed TemporalPass::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                     gpu::storage<shared::kKeptKeysBinding>(keys, gpu::kAllLayers),
                     gpu::storage<shared::kPictureBinding>(out), gpu::constants(step));
           if (edges)
-            c.dispatch_indirect(lists.dispatches, sizeof(shared::TileDispatch));
+            c.dispatch_indirect(lists.dispatches, 2 * sizeof(shared::TileDispatch));
           else
             c.dispatch(gpu::Commands::groups(scene.size.width, shared::kTileEdge),
                        gpu::Commands::groups(scene.size.height, shared::kTileEdge), 1);
