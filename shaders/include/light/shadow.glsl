@@ -103,13 +103,22 @@ float cascade_visibility(Cascade cascade, vec3 p, vec3 normal, float n_dot_l) {
   return filtered(clamp(kBodyRadius * distance_blocks / texel, least, widest), r);
 }
 
+// Field by field: an `if` would hold loads, which lavapipe then does lane by lane.
+Cascade selected(bool second, Cascade a, Cascade b) {
+  bvec4 by = bvec4(second);
+  return Cascade(mix(a.map_from_world_x, b.map_from_world_x, by), mix(a.map_from_world_y, b.map_from_world_y, by),
+                 mix(a.map_from_world_z, b.map_from_world_z, by), mix(a.radius, b.radius, second), mix(a.texel_blocks, b.texel_blocks, second),
+                 mix(a.depth_per_block, b.depth_per_block, second), mix(a.layer, b.layer, second), mix(a.glass_layer, b.glass_layer, second),
+                 mix(a.glass_area, b.glass_area, by));
+}
+
 // One of a body's cascades. Selected among values that every pixel loads alike, because on lavapipe a load with its own address for each pixel
 // costs as much as a dozen selections.
 Cascade pick_cascade(const uint base, uint index) {
   Cascade c = frame.cascades[base];
-  if (kCascades > 1u && index == 1u) c = frame.cascades[base + 1u];
-  if (kCascades > 2u && index == 2u) c = frame.cascades[base + 2u];
-  if (kCascades > 3u && index == 3u) c = frame.cascades[base + 3u];
+  if (kCascades > 1u) c = selected(index == 1u, c, frame.cascades[base + 1u]);
+  if (kCascades > 2u) c = selected(index == 2u, c, frame.cascades[base + 2u]);
+  if (kCascades > 3u) c = selected(index == 3u, c, frame.cascades[base + 3u]);
   return c;
 }
 
@@ -135,12 +144,13 @@ float cascades_visibility(const uint base, vec3 p, vec3 normal, float n_dot_l) {
   float to_next = index < kCascades - 1u ? clamp((distance / cascade.radius - 0.8) / 0.2, 0.0, 1.0) : 0.0;
   float visibility = 0.0;
   float weight = 1.0 - to_next;
+  Cascade next = pick_cascade(base, index + 1u);  // ahead of the loop, within which loads are done lane by lane
   // A second round only where some pixel fades.
   for (uint round = 0u;; ++round) {
     visibility += weight * cascade_visibility(cascade, p, normal, n_dot_l);
     if (round == 1u || to_next == 0.0) break;
     weight = to_next;
-    cascade = pick_cascade(base, index + 1u);
+    cascade = next;
   }
   return known * visibility;
 }
