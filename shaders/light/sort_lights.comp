@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // Which lights reach what, in six steps. Depths: those that each tile of 8x8 pixels shows, opaque and translucent. Clusters: those that show
 // something. Bins: of coarse bins of tiles, a bit a light; one invocation asks 32 lights about one bin and writes one word: the result has the
 // lights' order, without atomics, barriers or anything to clear. Lists of occupied clusters, twice: first each invocation counts the lights of its
@@ -73,7 +74,7 @@ void find_depths() {
   TileDepths t = TileDepths(grid.marked_slices, 1e30, 0.0);
   if (grid.marked_slices != 0u) t = TileDepths(grid.marked_slices, 0.0, slice_begin(uint(findMSB(grid.marked_slices)) + 1u));
   float nearest = 1e30, farthest = 0.0;
-  for (uint i = 0u; i < kTileEdge * kTileEdge / 4u; ++i) {
+  [[unroll]] for (uint i = 0u; i < kTileEdge * kTileEdge / 4u; ++i) {
     vec4 d = opaque_depths(uvec2(low) + 2u * uvec2(i % (kTileEdge / 2u), i / (kTileEdge / 2u)));
     vec4 z = grid.near_plane / d;
     nearest = min(nearest, least_of(mix(vec4(1e30), z, greaterThan(d, vec4(0.0)))));

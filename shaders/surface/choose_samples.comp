@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // Lists the pixels whose light has to be worked out because they cannot take it from the four points of a grid around them (list_points.comp); the
@@ -74,7 +75,7 @@ void main() {
   Four four = four_around(min(first, frame.size - 1u));
   uint without = 0u;  // a bit a pixel
   MeterRun run = meter_run(first);
-  for (uint i = 0u; i < kRun; ++i) {
+  [[unroll]] for (uint i = 0u; i < kRun; ++i) {
     uvec2 pixel = first + uvec2(i, 0u);
     if (!in_one_cell(kRun)) run = meter_run(pixel);
     bool here = tile && all(lessThan(pixel, frame.size));

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // As choose_samples.comp, of squares of the grid that show one plane of one block: what depends on the block, on the plane and on the grid's points
@@ -119,12 +120,12 @@ void main() {
   vec4 same = on_plane(c, Taker(alike_key(word), normal, seen.along, z, apart, false, vec3(0.0)));
   uint shares = emits_in_part(word) ? 0u : sharing(c, same);
   MeterRun run = meter_run(first);
-  for (uint y = 0u; y < kSquareEdge; ++y) {
+  [[unroll]] for (uint y = 0u; y < kSquareEdge; ++y) {
     Footprint footprint = row_footprint(seen, float(y));
     float low = float(y) / float(kSquareEdge), high = 1.0 - low;
     mat2x3 left = c.p00.sent * high + c.p01.sent * (same.z * low), right = c.p10.sent * (same.y * high) + c.p11.sent * (same.w * low);
     float left_weight = high + same.z * low, right_weight = same.y * high + same.w * low;
-    for (uint x = 0u; x < kSquareEdge; ++x) {
+    [[unroll]] for (uint x = 0u; x < kSquareEdge; ++x) {
       uvec2 pixel = first + uvec2(x, y);
       if (!in_one_cell(kSquareEdge)) run = meter_run(pixel);
       vec2 place = vec2(x, y);

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // Sky: the pixels that show it, by tiles, or all of them in a frame without geometry. In tiles without stars and discs it has no detail, and may be
 // worked out at every fourth pixel of a row (docs/decisions/0030-light-at-fewer-pixels.md). docs/conventions.md.
 #include "include/frame/common.glsl"
@@ -45,7 +46,7 @@ void main() {
   Shown here_shown = sky_at(first, tile), next = here_shown;
   if (kRun > 1u) next = sky_at(first + uvec2(kRun, 0u), tile);
   MeterRun run = meter_run(first);
-  for (uint i = 0u; i < kRun; ++i) {
+  [[unroll]] for (uint i = 0u; i < kRun; ++i) {
     uvec2 pixel = first + uvec2(i, 0u);
     if (!in_one_cell(kRun)) run = meter_run(pixel);
     bool here = tile && all(lessThan(pixel, frame.size));

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // As shade_sky.comp, of tiles that show a smooth sky and nothing else (classify_shaded_tiles.comp): worked out at the corners of squares of 4x4
 // pixels. An invocation takes a tile. docs/decisions/0030-light-at-fewer-pixels.md.
 #include "include/frame/common.glsl"
@@ -34,10 +35,10 @@ Shown between(Shown a, Shown b, float along) { return Shown(mix(a.radiance, b.ra
 // A square by its corners.
 void put_square(uvec2 first, Shown a, Shown b, Shown c, Shown d, bool here) {
   MeterRun run = meter_run(first);
-  for (uint y = 0u; y < kSquareEdge; ++y) {
+  [[unroll]] for (uint y = 0u; y < kSquareEdge; ++y) {
     float down = float(y) / float(kSquareEdge);
     Shown left = between(a, c, down), right = between(b, d, down);
-    for (uint x = 0u; x < kSquareEdge; ++x) {
+    [[unroll]] for (uint x = 0u; x < kSquareEdge; ++x) {
       uvec2 pixel = first + uvec2(x, y);
       if (!in_one_cell(kSquareEdge)) run = meter_run(pixel);
       Shown what = between(left, right, float(x) / float(kSquareEdge));
@@ -52,7 +53,7 @@ void main() {
   uvec2 first;
   bool tile = tile_in((gl_WorkGroupID.y * kTileRow + gl_WorkGroupID.x) * kSmoothSkyGroup + gl_LocalInvocationIndex, first);
   Row above = row_at(first, tile);
-  for (uint y = 0u; y < kTileEdge; y += kSquareEdge) {
+  [[unroll]] for (uint y = 0u; y < kTileEdge; y += kSquareEdge) {
     Row below = row_at(first + uvec2(0u, y + kSquareEdge), tile);
     put_square(first + uvec2(0u, y), above.left, above.middle, below.left, below.middle, tile);
     put_square(first + uvec2(kSquareEdge, y), above.middle, above.right, below.middle, below.right, tile);
