@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // As classify_tiles.comp, for frames that one body lights: tiles with surfaces (list 0), with open pixels (1), and with surfaces that the body
-// does not light (2, and then not in 0). Of those each face is turned away, or all texels of the shadow maps that the filter could look at lie
+// does not light (2, and then not in 0). Tiles with water or glass are in list 3 in place of 0. Of those each face is turned away, or all texels of the shadow maps that the filter could look at lie
 // before whatever the tile shows. Errs on the side of list 0. docs/decisions/0062.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
@@ -20,7 +21,6 @@ layout(binding = kLayerDepthsBinding) uniform sampler2D layer_depths;  // of the
 layout(constant_id = kUnderWaterConstant) const bool kUnderWater = false;  // as in under_water.glsl
 
 #include "include/scene/coverage.glsl"
-#include "include/scene/layers.glsl"
 #include "include/scene/list_tiles.glsl"
 #include "include/light/visibility.glsl"
 
@@ -84,16 +84,17 @@ void main() {
   uint faces = 0u, least_island = ~0u, most_island = 0u;
   float farthest = 1.0, nearest = 0.0;  // depths
   for (int y = 0; y < int(kTileEdge); y += 2) {
-    for (int x = 0; x < int(kTileEdge); x += 2) {
-      vec4 gathered = depths_about(low + ivec2(x, y), frame.size);
-      for (int i = 0; i < 4; ++i) {
+    [[unroll]] for (int x = 0; x < int(kTileEdge); x += 2) {
+      vec4 gathered = depths_about(low + ivec2(x, y), frame.size), layer = vec4(0.0);
+      if (kUnderWater) layer = depths_about(layer_depths, low + ivec2(x, y), frame.size);
+      [[unroll]] for (int i = 0; i < 4; ++i) {
         ivec2 pixel = min(low + ivec2(x, y) + ivec2(i == 1 || i == 2, i < 2), last);
         float depth = gathered[i];
         uint word = imageLoad(surfaces, pixel).r;
         bool here = is_covered(word, depth);
         covered = covered || here;
         open = open || !here;
-        if (kUnderWater) in_water = in_water || layer_depth_at(layer_depths, pixel, frame.layers_area) > 0.0;
+        in_water = in_water || (layer[i] > 0.0 && in_area(uvec2(pixel), frame.layers_area));
         faces |= here ? 1u << surface_face(word) : 0u;
         least_island = min(least_island, here ? surface_island(word) : ~0u);
         most_island = max(most_island, here ? surface_island(word) : 0u);
@@ -124,5 +125,5 @@ void main() {
   uint cascade = cascades_within(0u, kCascades, part.nearest * 0.999 * length(frame.ray_forward));
   uint end_cascade = min(cascades_within(0u, kCascades, part.farthest * most_long * 1.27) + 1u, kCascades);
   for (; sunless && faces_light && cascade < end_cascade; ++cascade) sunless = all_shaded(part, pick_cascade(0u, cascade));
-  list_tile(sunless ? 2u : 0u, at, count);
+  list_tile(sunless ? 2u : in_water ? 3u : 0u, at, count);
 }

@@ -31,8 +31,12 @@ class MediaLight {
   static MediaLight add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                         const In& in, const Tiles& tiles, const std::vector<OutputTiles>& covered);
 
-  std::vector<gpu::SpecConstant> with_media(std::vector<gpu::SpecConstant> own) const {
-    if (water_) own.push_back({shared::kUnderWaterConstant, 1});
+  /// Whether something may be under water.
+  bool has_water() const { return water_; }
+  /// @param in_water false: of a program for places that are not under water.
+  std::vector<gpu::SpecConstant> with_media(std::vector<gpu::SpecConstant> own,
+                                            bool in_water = true) const {
+    if (water_ && in_water) own.push_back({shared::kUnderWaterConstant, 1});
     if (glass_) own.push_back({shared::kGlassConstant, 1});
     return own;
   }

@@ -55,7 +55,7 @@ bool looks_for_sunless(const SceneRefs& scene, const ShadeIn& in, const ShadedFr
          !from.geometry.stored() && std::has_single_bit(scene.bodies);
 }
 
-/// As classify_tiles(), with kSunless.
+/// As classify_tiles(), with kSunless and kInWater.
 Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                          const ShadedFrom& from) {
   const std::uint32_t tiles = tile_count(scene.size);
@@ -149,20 +149,28 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
   const gpu::ImageRef maps = on.shadows.maps();
   const OccupancyReads occupancy(scene, scene.ao && scene.bodies != 0);
   const CloudRefs clouds = clouds_before_light(scene);
-  const auto program = [&](bool sunless, bool keep) {
+  const auto program = [&](TileKind kind, bool keep) {
     std::vector<gpu::SpecConstant> constants =
         with_light({{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
                    scene, bool{maps});
     constants =
         clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), bool{occupancy}));
     // Nothing under water is in a sunless tile, and glass takes no light of the sky.
-    if (sunless)
+    if (kind == TileKind::kSunless)
       constants.push_back({shared::kSunlessConstant, 1});
     else
-      constants = on.media.with_media(std::move(constants));
+      constants =
+          on.media.with_media(std::move(constants), !some_sunless || kind == TileKind::kInWater);
     return gpu::compute(pipelines, programs::kShadeSurfaces,
                         into.with_output(std::move(constants), scene, keep));
   };
+  auto programs = programs_of(into, TileKind::kCovered,
+                              [&](bool keep) { return program(TileKind::kCovered, keep); });
+  if (some_sunless) {
+    programs.push_back(std::pair(TileKind::kSunless, program(TileKind::kSunless, true)));
+    if (on.media.has_water())
+      programs.push_back(std::pair(TileKind::kInWater, program(TileKind::kInWater, true)));
+  }
   graph.add_pass(
       "shade_surfaces",
       [&](gpu::PassBuilder& b) {
@@ -180,9 +188,8 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         into.declare(b, scene);
       },
-      [lit = programs_of(into, TileKind::kCovered, [&](bool keep) { return program(false, keep); }),
-       sunless = program(some_sunless, true), some_sunless, scene, tiles, surfaces, occupancy,
-       media = on.media, clouds, maps, into](gpu::Commands& c) {
+      [programs = std::move(programs), scene, tiles, surfaces, occupancy, media = on.media, clouds,
+       maps, into](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::texels<shared::kIslandsBinding>(scene.islands),
@@ -199,13 +206,10 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
             into.bindings(scene),
             gpu::sampled<shared::kShadowMapsBinding>(maps_or_others(scene, maps),
                                                      scene.point_sampler)};
-        for (const auto& some : lit) {
+        for (const auto& some : programs) {
           gpu::bind(c, some.second, bindings, tiles.bindings(some.first));
           dispatch_tiles(c, tiles, some.first);
         }
-        if (!some_sunless) return;
-        gpu::bind(c, sunless, bindings, tiles.bindings(TileKind::kSunless));
-        dispatch_tiles(c, tiles, TileKind::kSunless);
       });
 }
 
@@ -277,9 +281,11 @@ void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                                        .depth = from.geometry.depth(),
                                        .kept = from.geometry.store().depth,
                                        .area = {0, 0, scene.size.width, scene.size.height}});
+  std::vector<OutputTiles> lit = into.tiles_of(TileKind::kCovered);
+  if (some_sunless) lit.push_back({TileKind::kInWater, true});
   const MediaLight media = MediaLight::add(
       graph, pipelines, scene, {from.geometry, from.layers, from.glass, from.shadows.maps()}, tiles,
-      into.tiles_of(TileKind::kCovered));
+      lit);
   const SampleIn on{from.geometry, from.shadows, media, tiles};
   if (in.sampled)
     add_sample_passes(graph, pipelines, scene, on, *in.sampled, into);
