@@ -13,7 +13,6 @@ layout(local_size_x = 64) in;
 
 layout(scalar, binding = kFrameBinding) uniform Frame { FrameConstants frame; };
 #include "include/frame/islands.glsl"
-layout(scalar, binding = kMaterialsBinding) uniform Materials { Material materials[kMaxMaterials]; };
 layout(binding = kSurfacesBinding, r32ui) readonly uniform uimage2D surfaces;
 layout(binding = kDepthsBinding) uniform sampler2D depths;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;  // their coverage: render::coverage_texels()

@@ -114,7 +114,7 @@ void main() {
   IslandTransform island = island_at(surface_island(word));
   vec3 normal = world_from_lattice_vector(island, face_normal(face));
   Seen seen = see(face, island, normal, ray, z);
-  uint layer = face_layer(face, materials[surface_block(word)]);
+  uint layer = face_layer(face, surface_block(word));
   float apart = kAlikeBlocks + kAlikePixels * z * frame.pixel_to_ndc.y * length(frame.ray_up);
   Four c = four_at(first / kStep, first / kStep + 1u);
   vec4 same = on_plane(c, Taker(alike_key(word), normal, seen.along, z, apart, false, vec3(0.0)));

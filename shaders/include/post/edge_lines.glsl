@@ -1,9 +1,10 @@
 // Lines at which surfaces end in the picture, and the shares of a pixel on their sides. Everything is relative to one pixel's centre, in pixels.
-// Needs before the include: common.glsl, `frame`, `island_at()`, `materials`, `block_textures` (their coverage). Components are chosen, not indexed,
+// Needs before the include: common.glsl, `frame`, `island_at()`, `block_textures` (their coverage). Components are chosen, not indexed,
 // and no arrays are used: lavapipe keeps what is indexed in memory.
 #ifndef SKERRY_EDGE_LINES_GLSL
 #define SKERRY_EDGE_LINES_GLSL
-#include "include/surface/surface.glsl"
+#include "include/scene/coverage.glsl"
+#include "include/surface/face_layer.glsl"
 
 // A value that is linear in the picture: at the pixel's centre, and its slopes to the right and down.
 #define Linear vec3
@@ -120,8 +121,7 @@ Side side_of(SeenFace own, SeenFace other, vec2 towards, bool known) {
 // @param places of the pixel that are asked, 1 or 2.
 float texture_share(SeenFace s, vec2 seen, int places) {
   uint face = surface_face(s.word);
-  Material material = materials[surface_block(s.word)];
-  uint layer = face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
+  uint layer = face_layer(face, surface_block(s.word));
   bool plant = face >= kFaceCount, level_face = (face >> 1) == 1u;
   float down_v = level_face ? 1.0 : -1.0;  // v runs downwards
   float distance = 1.0 / s.inverse.x, distance_seen = 1.0 / at(s.inverse, seen);

@@ -3,9 +3,8 @@
 #ifndef SKERRY_CUTOUT_GLSL
 #define SKERRY_CUTOUT_GLSL
 #include "shared/bindings.h"
+#include "include/surface/face_layer.glsl"
 
-// Material[], of which one word is loaded: three, of which one is then selected, cost lavapipe three times as much.
-layout(scalar, binding = kMaterialsBinding) uniform Materials { uint words[kMaxMaterials * kMaterialWords]; } materials;
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;  // their coverage: render::coverage_texels()
 
 // Level of a texture whose coordinates change from pixel to pixel as `uv` does. Drivers work theirs out each in their own way, by up to half a
@@ -18,7 +17,7 @@ float texture_level(vec2 uv) {
 // @param whole the quad is opaque: its texture says nothing.
 void discard_uncovered(uint surface, bool whole) {
   uint face = surface_face(surface);
-  uint layer = materials.words[surface_block(surface) * kMaterialWords + (face == 2u ? kLayerTopWord : face == 3u ? kLayerBottomWord : kLayerSideWord)];
+  uint layer = face_layer(face, surface_block(surface));
   vec2 uv = face >= 6u ? plant_uv(in_uv) : in_uv;
   float alpha = textureLod(block_textures, vec3(uv, float(layer)), kFinestCoverage ? 0.0 : texture_level(uv)).r;
   // Leaves are seen from the front: whether their backs are drawn must not depend on which ranges of a section are culled.

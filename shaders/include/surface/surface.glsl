@@ -19,6 +19,8 @@ layout(binding = kStoredPositionsBinding) uniform sampler2D stored_positions;
 vec3 place_in_voxel(vec3 lattice) { return clamp(lattice - floor(lattice + vec3(0.0, 0.001, 0.0)), 0.0, 1.0); }
 
 #ifndef SKERRY_UNTEXTURED
+#include "include/surface/face_layer.glsl"
+
 // Texture coordinates of a lattice point on a face [blocks], v downwards.
 vec2 face_uv(uint face, vec3 lattice) {
   return face >= 6u ? vec2(lattice.x, -lattice.y)
@@ -74,21 +76,16 @@ vec4 plane_texel(uint layer, uint face, vec2 uv, PlaneView view, uint max_taps) 
   return footprint_texel(layer, uv, footprint_of(face_uv(face, dx), face_uv(face, dy), max_taps));
 }
 
-uint face_layer(uint face, Material material) {
-  return face == 2u ? material.layer_top : face == 3u ? material.layer_bottom : material.layer_side;
-}
-
 // Texture of the surface a word names, where the ray meets it `t` blocks along the view axis.
 vec4 surface_texel(uint word, vec3 ray, float t, uint max_taps) {
   uint face = surface_face(word);
   IslandTransform island = island_at(surface_island(word));
-  Material material = materials[surface_block(word)];
   vec3 normal = face >= 6u ? vec3(0.70710678, 0.0, face == 6u ? -0.70710678 : 0.70710678) : face_normal(face);
   vec3 right = lattice_from_world_vector(island, frame.ray_right) * frame.pixel_to_ndc.x;
   vec3 up = lattice_from_world_vector(island, frame.ray_up) * frame.pixel_to_ndc.y;
   vec3 lattice = lattice_from_world(island, ray * t);
   vec2 uv = face >= 6u ? plant_uv(face_uv(face, place_in_voxel(lattice))) : face_uv(face, lattice);
-  return plane_texel(face_layer(face, material), face, uv, PlaneView(lattice_from_world_vector(island, ray), right, up, normal, t), max_taps);
+  return plane_texel(face_layer(face, surface_block(word)), face, uv, PlaneView(lattice_from_world_vector(island, ray), right, up, normal, t), max_taps);
 }
 
 #endif
