@@ -20,7 +20,7 @@ void dispatch_items(gpu::Commands& commands, std::uint32_t items);
 /// kSunless: with surfaces, of which sun and moon light none; where that is looked for, kCovered is
 /// the others.
 /// kInWater: where kSunless is looked for, of the others those that show water or glass, or all if
-/// the eye is in some; kCovered is then the rest. It has the list that kDetailed has in other frames.
+/// the eye is in some; kCovered is then the rest. Its list is that of kDetailed in other frames.
 /// kDetailed: open pixels that may show a star or a disc; where that is looked for, kOpen is the
 /// others. kKept...: whose radiance is kept; where that is told apart, the first three are the
 /// others.

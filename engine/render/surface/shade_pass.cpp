@@ -283,9 +283,9 @@ void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                                        .area = {0, 0, scene.size.width, scene.size.height}});
   std::vector<OutputTiles> lit = into.tiles_of(TileKind::kCovered);
   if (some_sunless) lit.push_back({TileKind::kInWater, true});
-  const MediaLight media = MediaLight::add(
-      graph, pipelines, scene, {from.geometry, from.layers, from.glass, from.shadows.maps()}, tiles,
-      lit);
+  const MediaLight media =
+      MediaLight::add(graph, pipelines, scene,
+                      {from.geometry, from.layers, from.glass, from.shadows.maps()}, tiles, lit);
   const SampleIn on{from.geometry, from.shadows, media, tiles};
   if (in.sampled)
     add_sample_passes(graph, pipelines, scene, on, *in.sampled, into);

@@ -4,7 +4,7 @@
 #ifndef SKERRY_EDGE_LINES_GLSL
 #define SKERRY_EDGE_LINES_GLSL
 #include "include/scene/coverage.glsl"
-#include "include/surface/face_layer.glsl"
+#include "include/scene/face_layer.glsl"
 
 // A value that is linear in the picture: at the pixel's centre, and its slopes to the right and down.
 #define Linear vec3

@@ -3,7 +3,7 @@
 #ifndef SKERRY_CUTOUT_GLSL
 #define SKERRY_CUTOUT_GLSL
 #include "shared/bindings.h"
-#include "include/surface/face_layer.glsl"
+#include "include/scene/face_layer.glsl"
 
 layout(binding = kBlockTexturesBinding) uniform sampler2DArray block_textures;  // their coverage: render::coverage_texels()
 

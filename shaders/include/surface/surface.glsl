@@ -19,7 +19,7 @@ layout(binding = kStoredPositionsBinding) uniform sampler2D stored_positions;
 vec3 place_in_voxel(vec3 lattice) { return clamp(lattice - floor(lattice + vec3(0.0, 0.001, 0.0)), 0.0, 1.0); }
 
 #ifndef SKERRY_UNTEXTURED
-#include "include/surface/face_layer.glsl"
+#include "include/scene/face_layer.glsl"
 
 // Texture coordinates of a lattice point on a face [blocks], v downwards.
 vec2 face_uv(uint face, vec3 lattice) {
