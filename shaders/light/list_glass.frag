@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The same surfaces one by one: the nearest to the body behind the one found before, if any, for what glass takes of the light of other glass and of
+// The surfaces that sum_glass.frag adds up, one by one: the nearest to the body behind the one found before, if any, for what glass takes of the light of other glass and of
 // water. Peeled as write_layer.frag does. docs/decisions/0090.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 // As classify_tiles.comp, for frames that one body lights: tiles with surfaces (list 0), with open pixels (1), and with surfaces that the body
-// does not light (2, and then not in 0). Tiles with water or glass are in list 3 in place of 0. Of those each face is turned away, or all texels of the shadow maps that the filter could look at lie
-// before whatever the tile shows. Errs on the side of list 0. docs/decisions/0062.
+// does not light (2, and then not in 0). Of those each face is turned away, or all texels of the shadow maps that the filter could look at lie
+// before whatever the tile shows. Errs on the side of list 0. Tiles with water or glass are in list 3 in place of 0. docs/decisions/0062.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"

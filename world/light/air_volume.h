@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -100,6 +101,17 @@ class VoxelBits {
   IVec3 low_{}, size_{};
   std::vector<std::uint64_t> words_;
 };
+
+/// Calls fn(voxel) for each that is chosen.
+template <class Fn>
+void for_each_voxel(const VoxelBits& bits, const Fn& fn) {
+  const IVec3 low = bits.low(), size = bits.size();
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x)
+      for (int w = 0; w < bits.row_words(); ++w)
+        for (std::uint64_t left = bits.row(x, y)[w]; left != 0; left &= left - 1)
+          fn(IVec3{low.x + x, low.y + y, low.z + 64 * w + std::countr_zero(left)});
+}
 
 /// Stained glass in a box of voxels. Lines pass it; light that passes it takes its colour.
 class StainedGlass {

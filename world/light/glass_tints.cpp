@@ -1,7 +1,6 @@
 #include "world/light/glass_tints.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/exponential.hpp>
 
@@ -12,17 +11,6 @@ namespace skerry::world {
 namespace {
 
 constexpr double kDepthSteps = 1 << 20;
-
-/// Calls fn(voxel) for each that is chosen.
-template <class Fn>
-void for_each_voxel(const VoxelBits& bits, const Fn& fn) {
-  const IVec3 low = bits.low(), size = bits.size();
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x)
-      for (int w = 0; w < bits.row_words(); ++w)
-        for (std::uint64_t left = bits.row(x, y)[w]; left != 0; left &= left - 1)
-          fn(IVec3{low.x + x, low.y + y, low.z + 64 * w + std::countr_zero(left)});
-}
 
 /// RGB, a block.
 glm::vec3 extinction(BlockId block) {

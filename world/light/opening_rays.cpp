@@ -164,13 +164,17 @@ OpeningRays::OpeningRays(const AirVolume& air, const LatticeLines& lines, const 
 void OpeningRays::take_lit() {
   const VoxelBits& wanted = wanted_.chosen();
   lit_ = VoxelBits(wanted.low(), wanted.size(), false);
-  for (int y = 0; y < wanted.size().y; ++y)
-    for (int x = 0; x < wanted.size().x; ++x)
-      for (int w = 0; w < wanted.row_words(); ++w) {
-        std::size_t number = wanted_.row(x, y)[w];
-        for (std::uint64_t left = wanted.row(x, y)[w]; left != 0; left &= left - 1, ++number)
-          if (sees_sky_at(number)) lit_.row(x, y)[w] |= left & -left;
-      }
+  for_each_voxel(wanted, [&](IVec3 voxel) {
+    if (is_lit_now(voxel)) lit_.set(voxel);
+  });
+}
+
+// Of voxels beside opaque ones alone: views of others may be kept or not, as edits went.
+bool OpeningRays::is_lit_now(IVec3 voxel) const {
+  if (!wanted_.has(voxel) || !sees_sky_at(wanted_.of(voxel))) return false;
+  for (int face = 0; face < 6; ++face)
+    if (air_.opaque.at(voxel + axis_vector(face / 2, face % 2 == 0 ? 1 : -1))) return true;
+  return false;
 }
 
 bool OpeningRays::sees_sky_at(std::size_t number) const {
@@ -180,8 +184,8 @@ bool OpeningRays::sees_sky_at(std::size_t number) const {
 }
 
 bool OpeningRays::retake_lit(IVec3 voxel) {
-  const bool now = wanted_.has(voxel) && sees_sky_at(wanted_.of(voxel));
-  if (lit_.at(voxel) == now) return false;
+  const bool now = is_lit_now(voxel);
+  if (lit_.at(voxel) == now || !lit_.inside(voxel)) return false;
   lit_.set(voxel, now);
   return true;
 }
@@ -199,7 +203,7 @@ bool OpeningRays::asks(IVec3 front, int face) const {
   const std::size_t number = wanted_.of(front);
   int lines = 0;
   for (const std::size_t fan : fans_of_face(face)) lines += std::popcount(seen_.of(number, fan));
-  return lines <= kFewLines && is_near_lit(front);
+  return lines <= kFewLines && (lines > 0 || is_near_lit(front));
 }
 
 std::uint64_t OpeningRays::key_of(IVec3 front, int face) {

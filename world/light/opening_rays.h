@@ -28,7 +28,8 @@ class OpeningRays {
   static constexpr std::size_t kRays = 64;
   /// Of a face's lines, the most that see the sky where rays are asked.
   static constexpr int kFewLines = 8;
-  /// Voxels, along each axis, within which some line must see the sky: elsewhere it is dark.
+  /// Voxels, along each axis, within which a line must see the sky from beside an opaque voxel if
+  /// none of the face's own does: elsewhere it is dark.
   static constexpr int kNear = 2;
 
   /// All must outlive this.
@@ -62,8 +63,8 @@ class OpeningRays {
   /// After voxels have changed: brings what is kept up to date. @return the faces that see other
   /// parts of the sky, or through other glass.
   std::vector<Face> changed(std::span<const IVec3> voxels);
-  /// After lines of a voxel have changed or its view is no longer kept: whether it sees the sky is
-  /// other now.
+  /// After lines of a voxel have changed, its view is no longer kept, or what lies beside it has
+  /// changed. @return whether it counts as one that sees the sky otherwise than before.
   bool retake_lit(IVec3 voxel);
 
   std::size_t bytes() const;
@@ -75,6 +76,7 @@ class OpeningRays {
     std::uint64_t rays = 0, glass = 0;  // those that see the sky, and that pass glass on the way
   };
   static std::uint64_t key_of(IVec3 front, int face);
+  bool is_lit_now(IVec3 voxel) const;
   bool sees_sky_at(std::size_t number) const;
   bool is_near_lit(IVec3 voxel) const;
   /// Calls fn(block, voxels of the ray in it) for stained glass on the way.

@@ -270,14 +270,18 @@ class SkyTransfer::Edit {
     for (const OpeningRays::Face& face : of_.openings_.changed(voxels_))
       redo_about(face.front, face.face);
     Kept near;  // where rays may be asked from now on, or no longer
-    for (const std::vector<IVec3>* voxels : {&lit_.voxels, &gone_})
-      for (const IVec3& voxel : *voxels) {
-        if (!of_.openings_.retake_lit(voxel)) continue;
-        for (int y = -OpeningRays::kNear; y <= OpeningRays::kNear; ++y)
-          for (int x = -OpeningRays::kNear; x <= OpeningRays::kNear; ++x)
-            for (int z = -OpeningRays::kNear; z <= OpeningRays::kNear; ++z)
-              near.add(of_.wanted_, voxel + IVec3{x, y, z});
-      }
+    const auto retake = [&](IVec3 voxel) {
+      if (!of_.openings_.retake_lit(voxel)) return;
+      for (int y = -OpeningRays::kNear; y <= OpeningRays::kNear; ++y)
+        for (int x = -OpeningRays::kNear; x <= OpeningRays::kNear; ++x)
+          for (int z = -OpeningRays::kNear; z <= OpeningRays::kNear; ++z)
+            near.add(of_.wanted_, voxel + IVec3{x, y, z});
+    };
+    for (const IVec3& voxel : lit_.voxels) retake(voxel);
+    for (const IVec3& voxel : gone_) retake(voxel);
+    for (const IVec3& voxel : voxels_)
+      for (int face = 0; face < 6; ++face)
+        retake(voxel + axis_vector(face / 2, face % 2 == 0 ? 1 : -1));
     for (const IVec3& voxel : near.voxels) redo_around(voxel);
   }
 

@@ -38,9 +38,10 @@ GlassPlan plan_glass(const FrameInput& input, const RenderSettings& settings,
       if (section.range_end[shared::kRangeCount - 1] == 0 || section.island >= input.islands.size())
         continue;
       section.bounds_min = glass.box.low, section.bounds_max = glass.box.high;
-      shown.add(
-          box_of(section, input.islands[section.island], input.camera.position, active.cascade));
-      stained |= glass.stained;
+      const TexelBox box =
+          box_of(section, input.islands[section.island], input.camera.position, active.cascade);
+      shown.add(box);
+      stained |= glass.stained && !box.empty();
     }
     if (shown.empty()) continue;
     const auto shadow_edge = static_cast<std::uint32_t>(active.cascade.key.map_size);

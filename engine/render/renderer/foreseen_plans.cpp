@@ -178,13 +178,18 @@ void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
   }
   // What players build comes last.
   for (const std::uint32_t bodies : {1u, 2u, 3u})
-    for (const std::uint32_t lights : kinds)
-      for (const bool stained : {false, true})
+    for (const std::uint32_t lights : kinds) {
+      const auto visit_glass = [&](Water water, bool stained) {
         visit_with({.bodies = bodies,
                     .lights = lights,
-                    .water = Water::kInView,
+                    .water = water,
                     .glass = true,
                     .stained = stained});
+      };
+      visit_glass(Water::kInView, false);
+      visit_glass(Water::kInView, true);
+      visit_glass(Water::kAroundEye, true);
+    }
 }
 
 }  // namespace skerry::render

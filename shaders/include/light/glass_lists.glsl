@@ -3,6 +3,7 @@
 #ifndef SKERRY_GLASS_LISTS_GLSL
 #define SKERRY_GLASS_LISTS_GLSL
 const float kGlassTexels = kListedTexels;
+const float kSearchGrowth = 3.0;  // fewer rounds: each looks at kListedGlass surfaces in eight places
 #include "include/light/through_glass.glsl"
 #include "include/light/listed_glass.glsl"
 

@@ -1,5 +1,5 @@
 // What glass leaves of the light of a body. What is known of it is in glass_sums.glsl or glass_lists.glsl, which include this. Needs before the
-// include: common.glsl, `frame`, `shadow_maps`, kGlassTexels. docs/decisions/0069.
+// include: common.glsl, `frame`, `shadow_maps`, kGlassTexels, kSearchGrowth. docs/decisions/0069.
 #ifndef SKERRY_THROUGH_GLASS_GLSL
 #define SKERRY_THROUGH_GLASS_GLSL
 
@@ -75,7 +75,7 @@ vec3 share_through_glass(vec3 p, vec3 n) {
   at.slope = slope_of(n, at.cascade, texel);
   at.depth = at.here + at.cascade.depth_per_block * (0.25 + 2.0 * texel);
   vec4 known = known_about(at);
-  for (float radius = 1.5; known.w == 0.0 && radius < 1.5 * widest; radius *= 1.5) known = known_around(min(radius, widest), at);
+  for (float radius = 1.5; known.w == 0.0 && radius < kSearchGrowth * widest; radius *= kSearchGrowth) known = known_around(min(radius, widest), at);
   // Where no way is known hardly any light comes.
   return known.w > 0.0 ? exp(-known.rgb / known.w) : vec3(0.0);
 }

@@ -378,7 +378,7 @@ TEST(SkyTransferEdit, FollowsWhatIsSeenThroughWindows) {
     stone.erase({16, 27, 66});
     LightChunks chunks = chunks_of(stone, {}, {}, glass);
     auto edited = looked_at(chunks, colours(), 16);
-    std::size_t changes = 0;
+    std::size_t changes = 0, followed = 0;
     for (int i = 0; i < 60; ++i) {
       // In the room, in its walls, before the window; now and then a wall of it.
       const int count = i % 10 == 9 ? 20 : 1;
@@ -386,16 +386,25 @@ TEST(SkyTransferEdit, FollowsWhatIsSeenThroughWindows) {
         const IVec3 at{place(4, 22), place(20, 27), place(58, 70)};
         if (glass.erase(at) == 0 && !stone.insert(at).second) stone.erase(at);
         if (stained && i % 4 == 3 && !stone.contains(at)) glass[at] = block::kRedGlass;
+        if (stained && i % 4 == 1)
+          for (auto& [voxel, block] : glass)
+            if (random() % 4 == 0)
+              block = block == block::kRedGlass ? block::kSkyGlass : block::kRedGlass;
       }
       const LightChunks now = with_what_stays(chunks, chunks_of(stone, {}, {}, glass));
       const SkyTransfer::Skies before = edited->faces();
-      if (!edited->edit(now)) edited = looked_at(now, colours(), 16);
+      if (edited->edit(now)) {
+        ++followed;
+      } else {
+        edited = looked_at(now, colours(), 16);
+      }
       chunks = now;
       ASSERT_EQ(differences(looked_at(chunks)->faces(), edited->faces()), 0u)
           << i << (stained ? ", stained" : "");
       changes += differences(before, edited->faces());
     }
     EXPECT_GT(changes, 1000u);
+    EXPECT_GT(followed, stained ? 55u : 59u);
   }
 }
 
