@@ -18,8 +18,7 @@ constexpr int kSets = 8;               // of rays a face direction
 // Of changed voxels, the most that are looked for among rays; beyond, all are followed again.
 constexpr std::size_t kMostChanged = 16;
 
-// Which rays may touch a voxel is found in a grid of their directions if it is so far away, else by
-// each of them.
+// Of rays to a voxel so far away a grid of their directions leaves few, which are asked each.
 constexpr float kFar = 8.0f;          // voxels
 constexpr float kAboutVoxel = 0.88f;  // radius of a ball about it, and a little more
 constexpr int kCells = 16;            // of the grid, along both axes of the face
@@ -346,19 +345,22 @@ std::uint64_t OpeningRays::rays_to(const Known& face, IVec3 voxel) const {
   if (way[axes.own] * static_cast<float>(axes.sign) < -kAboutVoxel) return 0;
   const float distance2 = glm::dot(way, way);
   const RaySet& set = set_of(face.front, face.face);
+  std::uint64_t out = 0, may = ~std::uint64_t{0};
   if (distance2 >= kFar * kFar) {
     const float length = std::sqrt(distance2);
-    return set.of_cell[static_cast<std::size_t>(cell_of(way[axes.b] / length) * kCells +
-                                                cell_of(way[axes.c] / length))];
+    may = set.of_cell[static_cast<std::size_t>(cell_of(way[axes.b] / length) * kCells +
+                                               cell_of(way[axes.c] / length))];
   }
-  std::uint64_t out = 0;
-  const float nearest = distance2 - kAboutVoxel * kAboutVoxel;  // along a ray, squared
-  for (std::size_t i = 0; i < kRays; ++i) {
-    const float along =
-        way.x * set.directions[0][i] + way.y * set.directions[1][i] + way.z * set.directions[2][i];
-    const bool touches = nearest <= 0.0f || (along > 0.0f && along * along >= nearest);
+  // In doubles: over some hundred voxels squares of floats would lose what corners need.
+  const double nearest = static_cast<double>(distance2) -
+                         static_cast<double>(kAboutVoxel) * static_cast<double>(kAboutVoxel);
+  const glm::dvec3 to(way);
+  for_each_ray(may, [&](std::size_t i) {
+    const glm::dvec3 ray(set.directions[0][i], set.directions[1][i], set.directions[2][i]);
+    const double along = glm::dot(to, ray);  // up to where it comes nearest
+    const bool touches = nearest <= 0.0 || (along > 0.0 && along * along >= nearest);
     out |= static_cast<std::uint64_t>(touches) << i;
-  }
+  });
   return out;
 }
 
