@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "engine/core/check.h"
 #include "world/light/base/face_records.h"
 #include "world/light/glass_tints.h"
 
@@ -53,6 +52,7 @@ class Crossings {
   const Ray& ray_;
   std::array<float, 3> next_;
 };
+
 struct RaySet {
   std::array<Ray, OpeningRays::kRays> rays{};
   std::array<std::uint8_t, OpeningRays::kRays> lobes{};
@@ -172,7 +172,7 @@ void OpeningRays::take_lit() {
 bool OpeningRays::is_lit_now(IVec3 voxel) const {
   if (!wanted_.has(voxel) || !sees_sky_at(wanted_.of(voxel))) return false;
   for (int face = 0; face < 6; ++face)
-    if (air_.opaque.at(voxel + axis_vector(face / 2, face % 2 == 0 ? 1 : -1))) return true;
+    if (air_.opaque.at(voxel + to_front({{}, face, false}))) return true;
   return false;
 }
 

@@ -280,8 +280,7 @@ class SkyTransfer::Edit {
     for (const IVec3& voxel : lit_.voxels) retake(voxel);
     for (const IVec3& voxel : gone_) retake(voxel);
     for (const IVec3& voxel : voxels_)
-      for (int face = 0; face < 6; ++face)
-        retake(voxel + axis_vector(face / 2, face % 2 == 0 ? 1 : -1));
+      for (int face = 0; face < 6; ++face) retake(voxel + to_front({{}, face, false}));
     for (const IVec3& voxel : near.voxels) redo_around(voxel);
   }
 
