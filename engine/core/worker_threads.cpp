@@ -46,6 +46,7 @@ void WorkerThreads::submit_first(std::function<void()> job) {
 void WorkerThreads::submit(std::function<void()> job, bool first) {
   SKERRY_ASSERT(job != nullptr);
   const std::lock_guard lock(mutex_);
+  if (dropping_) return;
   if (first)
     jobs_.push_front(std::move(job));
   else
@@ -56,6 +57,14 @@ void WorkerThreads::submit(std::function<void()> job, bool first) {
 void WorkerThreads::wait() {
   std::unique_lock lock(mutex_);
   idle_.wait(lock, [this] { return jobs_.empty() && running_ == 0; });
+}
+
+void WorkerThreads::drop_waiting() {
+  std::deque<std::function<void()>> dropped;  // freed without the lock: that may take long
+  const std::lock_guard lock(mutex_);
+  dropping_ = true;
+  jobs_.swap(dropped);
+  if (running_ == 0) idle_.notify_all();
 }
 
 void WorkerThreads::work(Priority priority) {

@@ -33,6 +33,9 @@ class WorkerThreads {
   void submit_first(std::function<void()> job);
   /// Returns when every job submitted so far, and those they submitted, has ended.
   void wait();
+  /// For an end that nobody should wait for: jobs that have not begun never run, nor does what is
+  /// submitted from now on. Those that run end as usual.
+  void drop_waiting();
 
  private:
   void work(Priority priority);
@@ -41,6 +44,7 @@ class WorkerThreads {
   std::condition_variable wanted_, idle_;
   std::deque<std::function<void()>> jobs_;
   int running_ = 0;
+  bool dropping_ = false;  // jobs, rather than running them
   bool stopping_ = false;
   std::vector<std::jthread> threads_;
 };

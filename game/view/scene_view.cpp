@@ -119,7 +119,10 @@ SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> 
   light_field_ = light_field_of(options, *world_, start_camera_);
 }
 
-SceneView::~SceneView() = default;
+// Nobody waits for light that nobody will see: of a wide view it takes seconds.
+SceneView::~SceneView() {
+  if (light_threads_) light_threads_->drop_waiting();
+}
 
 Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
                                                      const SceneOptions& options,

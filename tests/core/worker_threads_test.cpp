@@ -63,6 +63,27 @@ TEST(WorkerThreads, WhatAJobSubmitsComesBeforeAllThatWaits) {
   EXPECT_EQ(order, "aAbB");
 }
 
+TEST(WorkerThreads, WhatIsDroppedNeverRunsAndWhatRunsEnds) {
+  std::atomic<int> ended = 0, dropped = 0;
+  std::latch begun(1), told(1);
+  {
+    WorkerThreads threads(1);
+    threads.submit([&] {
+      begun.count_down();
+      told.wait();
+      threads.submit([&] { ++dropped; });
+      ++ended;
+    });
+    for (int i = 0; i < 100; ++i) threads.submit([&] { ++dropped; });
+    begun.wait();
+    threads.drop_waiting();
+    told.count_down();
+    threads.wait();
+    EXPECT_EQ(ended, 1);
+  }
+  EXPECT_EQ(dropped, 0);
+}
+
 TEST(WorkerThreads, WhatIsSubmittedFirstComesBeforeAllThatWaits) {
   std::string order;
   {
