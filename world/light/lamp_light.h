@@ -19,8 +19,9 @@ inline float luminance(const glm::vec3& c) {
 /// voxel's side that lies behind it, where the face is that looks there.
 struct LampLight {
   std::array<glm::vec3, 6> faces{};
-  /// At that side's corners, b + 2 c (FaceAxes): luminance, from half a voxel off at least. Between
-  /// means of voxels the light of a lamp a block away would come out twice as bright.
+  /// At that side's corners, b + 2 c (FaceAxes): luminance, such that what is interpolated between
+  /// them is on average what the lamp gives there. Between means of voxels the light of a lamp a
+  /// block away would come out twice as bright.
   std::array<std::array<float, 4>, 6> corners{};
 
   const glm::vec3& operator[](std::size_t face) const { return faces[face]; }

@@ -239,6 +239,7 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
   const Around around = this->around(front, axes);
   std::array<View, 9> views{};
   std::array<const LampLight*, 9> lamps{};
+  std::array<float, 9> lamps_left{};
   bool tinted = false;
   for (std::size_t at = 0; at < 9; ++at) {
     const IVec3 voxel = around.voxels[at];
@@ -247,8 +248,10 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
     lamps[at] = lamp_light_.find(index);
     views[at] = view_of(voxel, face);
     tinted |= views[at].rays ? openings_.passes_glass(voxel, face) : tints_.has(index);
-    if (!plant && face == 2 && air_.has_leaves && air_.plants.at(voxel))
+    const bool under_plant = !plant && face == 2 && air_.has_leaves && air_.plants.at(voxel);
+    if (under_plant)
       for (std::uint32_t& lobe : views[at].lobes) lobe -= lobe / kPartUnderPlant;
+    lamps_left[at] = under_plant ? 1.0f - BounceLight::kUnderPlant : 1.0f;
   }
   glm::uvec4 tint = white_tint();
   if (tinted) tint = tint_corners(around, face, views);
@@ -261,7 +264,8 @@ void SkyTransfer::append_record(IVec3 front, int face, bool plant,
     glm::vec3 lamp_sum(0.0f);
     for (const std::size_t at : about)
       if (lamps[at] != nullptr)
-        lamp_sum += lamps[at]->at(static_cast<std::size_t>(face), corner_within(at, corner));
+        lamp_sum += lamps_left[at] *
+                    lamps[at]->at(static_cast<std::size_t>(face), corner_within(at, corner));
     for (std::size_t lobe = 0; lobe < shared::kSkyLobes; ++lobe) {
       std::uint32_t sum = 0;
       for (const std::size_t at : about) sum += views[at].lobes[lobe];
