@@ -1,152 +1,59 @@
 #include "world/light/opening_rays.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <numbers>
 
 #include "world/light/base/face_records.h"
+#include "world/light/base/opening_ray_sets.h"
 #include "world/light/glass_tints.h"
 
 namespace skerry::world {
 namespace {
 
 constexpr std::uint32_t kAll = 65280;  // 255 * 256
-constexpr int kSets = 8;               // of rays a face direction
 
-// Of changed voxels, the most that are looked for among rays; beyond, all are followed again.
-constexpr std::size_t kMostChanged = 16;
-
-// Of rays to a voxel so far away a grid of their directions leaves few, which are asked each.
-constexpr float kFar = 8.0f;          // voxels
-constexpr float kAboutVoxel = 0.88f;  // radius of a ball about it, and a little more
-constexpr int kCells = 16;            // of the grid, along both axes of the face
-
-// Planes that a ray crosses whose order is kept; it is followed anew where it gets further.
-constexpr std::size_t kKeptPlanes = 512;
-constexpr std::size_t kPlanesAWord = 32;
-
-struct Ray {
-  std::array<float, 3> first{}, every{};  // length up to the first plane across an axis; then
-  std::array<int, 3> step{};
-  /// Two bits a plane, the first lowest: its axis.
-  std::array<std::uint64_t, kKeptPlanes / kPlanesAWord> planes{};
-};
-
-/// Where a ray crosses planes, one after the other.
-class Crossings {
+/// A way through a box by numbers of bits, and a register with the steps that are left along each
+/// axis until the box ends, each with a bit above it that is cleared when there are none.
+class BitWalk {
  public:
-  explicit Crossings(const Ray& ray) : ray_(ray), next_(ray.first) {}
-  /// Of the next plane.
-  std::size_t axis() const {
-    const std::size_t near = next_[1] < next_[0] ? 1 : 0;
-    return next_[2] < next_[near] ? 2 : near;
+  BitWalk(const VoxelBits& box, const OpeningRay& ray, IVec3 from)
+      : low_{box.low().x, box.low().y, box.low().z},
+        size_{box.size().x, box.size().y, box.size().z},
+        to_next_{box.bit_step({1, 0, 0}), box.bit_step({0, 1, 0}), 1, 0},
+        bit_(box.bit_at(from)) {
+    const std::array<int, 3> at{from.x, from.y, from.z};
+    for (std::size_t a = 0; a < 3; ++a) {
+      up_[a] = ray.step[a] > 0;
+      if (!up_[a]) to_next_[a] = -to_next_[a];
+      one_[a] = std::uint64_t{1} << place_of(a);
+      const int left = up_[a] ? low_[a] + size_[a] - 1 - at[a] : at[a] - low_[a];
+      left_ |= (kNone + static_cast<std::uint64_t>(left)) << place_of(a);
+    }
   }
-  float length() const { return next_[axis()]; }
-  void pass() {
-    const std::size_t axis = this->axis();
-    next_[axis] += ray_.every[axis];
+  /// @return whether it is inside then.
+  bool pass(std::size_t axis) {
+    left_ -= one_[axis];
+    bit_ += to_next_[axis];
+    return (left_ & kAnyNone) == kAnyNone;
   }
+  std::ptrdiff_t bit() const { return bit_; }
+  IVec3 voxel() const { return {on_axis(0), on_axis(1), on_axis(2)}; }
 
  private:
-  const Ray& ray_;
-  std::array<float, 3> next_;
-};
-
-struct RaySet {
-  std::array<Ray, OpeningRays::kRays> rays{};
-  std::array<std::uint8_t, OpeningRays::kRays> lobes{};
-  std::array<std::uint64_t, shared::kSkyLobes> of_lobe{};
-  std::array<std::array<float, OpeningRays::kRays>, 3> directions{};  // by axis
-  /// Rays that a voxel may be on which lies in the direction of a cell, kFar away or more.
-  std::array<std::uint64_t, kCells * kCells> of_cell{};
-};
-
-int cell_of(float component) {
-  return std::clamp(static_cast<int>((component + 1.0f) * (kCells / 2.0f)), 0, kCells - 1);
-}
-
-/// Point of a (0, 2)-sequence in base 2 (Kollig and Keller 2002, Efficient Multidimensional
-/// Sampling): each 2^k in a row, the first of them a multiple of 2^k, are as even as so many can
-/// be.
-std::array<double, 2> point_of_sequence(std::uint32_t number) {
-  std::uint32_t u = 0, v = 0;
-  for (std::uint32_t left = number, bit = 1u << 31, sum = 1u << 31; left != 0;
-       left >>= 1, bit >>= 1, sum ^= sum >> 1)
-    if ((left & 1u) != 0) u ^= bit, v ^= sum;
-  const double step = std::exp2(-32.0);
-  return {u * step, v * step};
-}
-
-/// From the unit square to the unit disc, areas in proportion (Shirley and Chiu 1997, A Low
-/// Distortion Map Between Disk and Square).
-glm::dvec2 in_disc(glm::dvec2 square) {
-  const glm::dvec2 p = 2.0 * square - 1.0;
-  const bool wide = std::abs(p.x) > std::abs(p.y);
-  const double radius = wide ? p.x : p.y;
-  const double part = std::numbers::pi / 4.0 * (wide ? p.y / p.x : p.x / p.y);
-  return wide ? glm::dvec2(radius * std::cos(part), radius * std::sin(part))
-              : glm::dvec2(radius * std::sin(part), radius * std::cos(part));
-}
-
-// Sets follow each other in one sequence: they are even by themselves, and together those of four
-// faces side by side. Density goes with the cosine.
-RaySet make_set(int face, int set) {
-  const FaceAxes axes(face);
-  RaySet out;
-  for (std::size_t i = 0; i < OpeningRays::kRays; ++i) {
-    // In the middle of the cells that points of all sets lie in, none of them on the face's axes.
-    constexpr double kHalfCell = 0.5 / static_cast<double>(kSets * OpeningRays::kRays);
-    const auto [u, v] = point_of_sequence(
-        static_cast<std::uint32_t>(static_cast<std::size_t>(set) * OpeningRays::kRays + i));
-    const glm::dvec2 level = in_disc({u + kHalfCell, v + kHalfCell});
-    glm::dvec3 d(0.0);
-    d[axes.own] = axes.sign * std::sqrt(1.0 - glm::dot(level, level));
-    d[axes.b] = level.x;
-    d[axes.c] = level.y;
-    std::uint32_t octant = 0;
-    for (int a = 0; a < 3; ++a) {
-      const auto axis = static_cast<std::size_t>(a);
-      Ray& ray = out.rays[i];
-      ray.step[axis] = d[a] > 0.0 ? 1 : -1;
-      ray.every[axis] = static_cast<float>(1.0 / std::abs(d[a]));
-      ray.first[axis] = a == axes.own ? ray.every[axis] : 0.5f * ray.every[axis];
-      out.directions[axis][i] = static_cast<float>(d[a]);
-      if (d[a] <= 0.0) octant |= 1u << a;
-    }
-    Crossings crossings(out.rays[i]);
-    for (std::size_t at = 0; at < kKeptPlanes; ++at, crossings.pass())
-      out.rays[i].planes[at / kPlanesAWord] |= std::uint64_t{crossings.axis()}
-                                               << 2 * (at % kPlanesAWord);
-    const std::uint32_t lobe = shared::sky_lobe(static_cast<std::uint32_t>(axes.own), octant,
-                                                static_cast<float>(std::abs(d.y)));
-    out.lobes[i] = static_cast<std::uint8_t>(lobe);
-    out.of_lobe[lobe] |= std::uint64_t{1} << i;
-    const auto reaches = [&](double component, int cell) {
-      const double low = -1.0 + cell * 2.0 / kCells, off = static_cast<double>(kAboutVoxel / kFar);
-      return component > low - off && component < low + 2.0 / kCells + off;
-    };
-    for (int b = 0; b < kCells; ++b)
-      for (int c = 0; c < kCells; ++c)
-        if (reaches(d[axes.b], b) && reaches(d[axes.c], c))
-          out.of_cell[static_cast<std::size_t>(b * kCells + c)] |= std::uint64_t{1} << i;
+  static constexpr int kBits = 20;  // islands have fewer voxels along an axis
+  static constexpr std::uint64_t kNone = std::uint64_t{1} << kBits;
+  static constexpr std::uint64_t kAnyNone = kNone | kNone << (kBits + 1) | kNone << 2 * (kBits + 1);
+  static int place_of(std::size_t axis) { return static_cast<int>(axis) * (kBits + 1); }
+  int on_axis(std::size_t a) const {
+    const int steps = static_cast<int>(left_ >> place_of(a) & (kNone - 1));
+    return low_[a] + (up_[a] ? size_[a] - 1 - steps : steps);
   }
-  return out;
-}
-
-const RaySet& set_of(IVec3 front, int face) {
-  static const std::vector<RaySet> sets = [] {
-    std::vector<RaySet> all;
-    for (int direction = 0; direction < 6; ++direction)
-      for (int set = 0; set < kSets; ++set) all.push_back(make_set(direction, set));
-    return all;
-  }();
-  const FaceAxes axes(face);
-  const std::array<int, 3> odd{front.x & 1, front.y & 1, front.z & 1};
-  const auto part = [&](int axis) { return odd[static_cast<std::size_t>(axis)]; };
-  return sets[static_cast<std::size_t>(face * kSets + part(axes.b) + 2 * part(axes.c) +
-                                       4 * part(axes.own))];
-}
+  std::array<int, 3> low_, size_;
+  std::array<bool, 3> up_{};
+  std::array<std::ptrdiff_t, 4> to_next_;
+  std::array<std::uint64_t, 4> one_{};
+  std::ptrdiff_t bit_;
+  std::uint64_t left_ = 0;
+};
 
 template <class Fn>
 void for_each_ray(std::uint64_t rays, const Fn& fn) {
@@ -166,6 +73,78 @@ void OpeningRays::take_lit() {
   for_each_voxel(wanted, [&](IVec3 voxel) {
     if (is_lit_now(voxel)) lit_.set(voxel);
   });
+  if (known_.empty()) mark_rock();
+}
+
+std::size_t OpeningRays::cell_at(int x, int y, int z) const {
+  const auto cells = [](int voxels) { return (voxels + kCell - 1) / kCell; };
+  return static_cast<std::size_t>(
+      2 *
+      ((y / kCell * cells(fronts_.size().x) + x / kCell) * cells(fronts_.size().z) + z / kCell));
+}
+
+void OpeningRays::mark_rock() {
+  const VoxelBits& opaque = air_.opaque;
+  fronts_ = VoxelBits(opaque.low(), opaque.size(), false);
+  low_front_ = opaque.low() + opaque.size(), high_front_ = opaque.low();
+  const IVec3 size = opaque.size();
+  cells_.assign(cell_at(size.x - 1, size.y - 1, size.z - 1) / 64 + 1, 0);
+  // Of 16 cells in a row, those whose voxels are all opaque, by the first bit of each.
+  const auto filled = [&](int x, int y, int word) {
+    std::uint64_t all = ~std::uint64_t{0};
+    for (int j = 0; j < kCell; ++j)
+      for (int i = 0; i < kCell; ++i) {
+        if (!opaque.has_row(x + i, y + j)) return std::uint64_t{0};
+        all &= opaque.row(x + i, y + j)[word];
+      }
+    all &= all >> 1, all &= all >> 2;
+    return all & 0x1111'1111'1111'1111u;
+  };
+  for (int y = kCell; y + kCell < size.y; y += kCell)
+    for (int x = kCell; x + kCell < size.x; x += kCell)
+      for (int w = 0; w < opaque.row_words(); ++w) {
+        std::uint64_t rock = filled(x, y, w);
+        for (int j = -kCell; j <= kCell && rock != 0; j += kCell)
+          for (int i = -kCell; i <= kCell && rock != 0; i += kCell) {
+            const std::uint64_t its = filled(x + i, y + j, w);
+            const std::uint64_t before = w == 0 ? 0 : filled(x + i, y + j, w - 1) >> (64 - kCell);
+            const std::uint64_t after =
+                w + 1 == opaque.row_words() ? 0 : filled(x + i, y + j, w + 1) << (64 - kCell);
+            rock &= its & (its << kCell | before) & (its >> kCell | after);
+          }
+        for (; rock != 0; rock &= rock - 1) {
+          const std::size_t cell = cell_at(x, y, 64 * w + std::countr_zero(rock));
+          cells_[cell / 64] |= kRock << cell % 64;
+        }
+      }
+}
+
+// Rock that comes is not marked: it would stop ways back sooner, but they find the same.
+void OpeningRays::clear_rock_about(IVec3 voxel) {
+  const IVec3 low = fronts_.low();
+  const IVec3 at{voxel.x - low.x, voxel.y - low.y, voxel.z - low.z};
+  for (int y = -kCell; y <= kCell; y += kCell)
+    for (int x = -kCell; x <= kCell; x += kCell)
+      for (int z = -kCell; z <= kCell; z += kCell) {
+        const IVec3 other = at + IVec3{x, y, z};
+        if (!fronts_.inside(low + other)) continue;
+        const std::size_t cell = cell_at(other.x, other.y, other.z);
+        cells_[cell / 64] &= ~(kRock << cell % 64);
+      }
+}
+
+void OpeningRays::add_front(IVec3 voxel) {
+  fronts_.set(voxel);
+  const auto least = [](IVec3 a, IVec3 b) {
+    return IVec3{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+  };
+  const auto most = [](IVec3 a, IVec3 b) {
+    return IVec3{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+  };
+  low_front_ = least(low_front_, voxel), high_front_ = most(high_front_, voxel);
+  const IVec3 low = fronts_.low();
+  const std::size_t cell = cell_at(voxel.x - low.x, voxel.y - low.y, voxel.z - low.z);
+  cells_[cell / 64] |= kHasFront << cell % 64;
 }
 
 // Of voxels beside opaque ones alone: views of others may be kept or not, as edits went.
@@ -190,11 +169,17 @@ bool OpeningRays::retake_lit(IVec3 voxel) {
 }
 
 bool OpeningRays::is_near_lit(IVec3 voxel) const {
-  if (lit_.at(voxel)) return true;
-  for (int y = -kNear; y <= kNear; ++y)
-    for (int x = -kNear; x <= kNear; ++x)
-      for (int z = -kNear; z <= kNear; ++z)
-        if (lit_.at(voxel + IVec3{x, y, z})) return true;
+  constexpr std::uint64_t kBoth = (std::uint64_t{1} << (2 * kNear + 1)) - 1;
+  const IVec3 low = lit_.low();
+  const int x = voxel.x - low.x, y = voxel.y - low.y, z = voxel.z - low.z - kNear;
+  const int word = z < 0 ? -1 : z / 64, shift = z & 63;
+  for (int j = -kNear; j <= kNear; ++j)
+    for (int i = -kNear; i <= kNear; ++i) {
+      if (!lit_.has_row(x + i, y + j)) continue;
+      const std::uint64_t* row = lit_.row(x + i, y + j) + word;
+      const std::uint64_t next = shift == 0 ? 0 : row[1] << (64 - shift);
+      if (((row[0] >> shift | next) & kBoth) != 0) return true;
+    }
   return false;
 }
 
@@ -217,7 +202,10 @@ std::uint64_t OpeningRays::key_of(IVec3 front, int face) {
 std::uint64_t OpeningRays::seen(IVec3 front, int face) {
   const auto [place, is_new] =
       places_.emplace(key_of(front, face), static_cast<std::uint32_t>(known_.size()));
-  if (is_new) look(known_.emplace_back(Known{front, face, 0, 0}), ~std::uint64_t{0});
+  if (is_new) {
+    look(known_.emplace_back(Known{front, face, 0, 0}), ~std::uint64_t{0});
+    add_front(front);
+  }
   return known_[place->second].rays;
 }
 
@@ -227,10 +215,10 @@ bool OpeningRays::passes_glass(IVec3 front, int face) const {
 
 template <class Fn>
 bool OpeningRays::follow(IVec3 front, int face, std::size_t number, const Fn& fn) const {
-  const Ray& ray = set_of(front, face).rays[number];
+  const OpeningRay& ray = OpeningRaySet::of(front, face).rays[number];
   glm::ivec3 at = vector_of(front);
   float entered = 0.0f;
-  for (Crossings crossings(ray);; crossings.pass()) {
+  for (RayCrossings crossings(ray);; crossings.pass()) {
     const BlockId block = air_.stained.at({at.x, at.y, at.z});
     if (block != kAir) fn(block, crossings.length() - entered);
     entered = crossings.length();
@@ -242,44 +230,17 @@ bool OpeningRays::follow(IVec3 front, int face, std::size_t number, const Fn& fn
   }
 }
 
-// Numbers of bits, and a register with the steps that are left along each axis until the volume
-// ends, each with a bit above it that is cleared when there are none.
 bool OpeningRays::comes_to_sky(IVec3 front, int face, std::size_t number) const {
-  constexpr int kBits = 20;
-  constexpr std::uint64_t kNone = std::uint64_t{1} << kBits;
-  constexpr std::uint64_t kAnyNone = kNone | kNone << (kBits + 1) | kNone << 2 * (kBits + 1);
-  const Ray& ray = set_of(front, face).rays[number];
+  const OpeningRay& ray = OpeningRaySet::of(front, face).rays[number];
   const VoxelBits& solid = lines_.solid();
-  const IVec3 low = solid.low(), size = solid.size();
-  const std::array<int, 3> from{front.x - low.x, front.y - low.y, front.z - low.z},
-      edge{size.x, size.y, size.z};
-  std::array<std::ptrdiff_t, 4> to_next{solid.bit_step({1, 0, 0}), solid.bit_step({0, 1, 0}), 1, 0};
-  std::array<std::uint64_t, 4> one{};
-  std::uint64_t left = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const auto place = static_cast<int>(a) * (kBits + 1);
-    const bool up = ray.step[a] > 0;
-    if (!up) to_next[a] = -to_next[a];
-    one[a] = std::uint64_t{1} << place;
-    left |= (kNone + static_cast<std::uint64_t>(up ? edge[a] - 1 - from[a] : from[a])) << place;
-  }
-  std::ptrdiff_t bit = solid.bit_at(front);
-  for (std::uint64_t planes : ray.planes)
-    for (std::size_t i = 0; i < kPlanesAWord; ++i, planes >>= 2) {
-      const std::size_t axis = planes & 3;
-      left -= one[axis];
-      if ((left & kAnyNone) != kAnyNone) return true;
-      bit += to_next[axis];
-      if (!solid.bit(bit)) continue;
-      if (!air_.has_leaves) return false;
-      const auto voxel = [&](std::size_t a) {
-        const int steps = static_cast<int>(left >> (a * (kBits + 1)) & (kNone - 1));
-        const std::array<int, 3> lowest{low.x, low.y, low.z};
-        return lowest[a] + (ray.step[a] > 0 ? edge[a] - 1 - steps : steps);
-      };
-      if (!lines_.open({voxel(0), voxel(1), voxel(2)}, number)) return false;
-    }
-  return follow(front, face, number, [](BlockId, float) {});
+  BitWalk walk(solid, ray, front);
+  bool sky = false;
+  for_each_plane(ray, 0, [&](std::size_t axis) {
+    sky = !walk.pass(axis);
+    if (sky) return false;
+    return !solid.bit(walk.bit()) || (air_.has_leaves && lines_.open(walk.voxel(), number));
+  });
+  return sky;
 }
 
 void OpeningRays::look(Known& face, std::uint64_t rays) const {
@@ -310,7 +271,7 @@ glm::vec3 OpeningRays::left_by_glass_on(IVec3 front, int face, std::size_t ray) 
 std::array<std::uint32_t, shared::kSkyLobes> OpeningRays::lobes(IVec3 front, int face,
                                                                 std::uint64_t rays) {
   std::array<std::uint32_t, shared::kSkyLobes> out{};
-  const RaySet& set = set_of(front, face);
+  const OpeningRaySet& set = OpeningRaySet::of(front, face);
   for (std::size_t lobe = 0; lobe < out.size(); ++lobe)
     out[lobe] = kAll * static_cast<std::uint32_t>(std::popcount(rays & set.of_lobe[lobe])) /
                 static_cast<std::uint32_t>(std::popcount(set.of_lobe[lobe]));
@@ -318,10 +279,11 @@ std::array<std::uint32_t, shared::kSkyLobes> OpeningRays::lobes(IVec3 front, int
 }
 
 std::size_t OpeningRays::lobe_of_ray(IVec3 front, int face, std::size_t ray) {
-  return set_of(front, face).lobes[ray];
+  return OpeningRaySet::of(front, face).lobes[ray];
 }
 
 void OpeningRays::forget(IVec3 front) {
+  fronts_.set(front, false);
   for (int face = 0; face < 6; ++face) {
     const auto place = places_.find(key_of(front, face));
     if (place == places_.end()) continue;
@@ -335,43 +297,75 @@ void OpeningRays::forget(IVec3 front) {
   }
 }
 
-// A ray touches a voxel only if it comes as near to its middle as its corners are.
-std::uint64_t OpeningRays::rays_to(const Known& face, IVec3 voxel) const {
-  const FaceAxes axes(face.face);
-  glm::vec3 way(static_cast<float>(voxel.x - face.front.x),
-                static_cast<float>(voxel.y - face.front.y),
-                static_cast<float>(voxel.z - face.front.z));
-  way[axes.own] += 0.5f * static_cast<float>(axes.sign);
-  if (way[axes.own] * static_cast<float>(axes.sign) < -kAboutVoxel) return 0;
-  const float distance2 = glm::dot(way, way);
-  const RaySet& set = set_of(face.front, face.face);
-  std::uint64_t out = 0, may = ~std::uint64_t{0};
-  if (distance2 >= kFar * kFar) {
-    const float length = std::sqrt(distance2);
-    may = set.of_cell[static_cast<std::size_t>(cell_of(way[axes.b] / length) * kCells +
-                                               cell_of(way[axes.c] / length))];
+/// Calls fn(place in known_, ray) for the faces of a direction from which a ray passes a voxel, or
+/// would if nothing stopped it before, but not those behind rock. All rays of a set go alike from
+/// wherever they begin, so their ways are gone back here. A ray passes a voxel at most one away,
+/// along each axis, from where another of its direction does that passes the same voxel: where one
+/// is in the middle of rock, so are all that come from further back.
+template <class Fn>
+void OpeningRays::for_each_through(IVec3 voxel, int face, const Fn& fn) const {
+  const IVec3 low = fronts_.low();
+  const std::array<int, 3> at{voxel.x - low.x, voxel.y - low.y, voxel.z - low.z};
+  const std::array<int, 3> below{voxel.x - low_front_.x, voxel.y - low_front_.y,
+                                 voxel.z - low_front_.z},
+      above{high_front_.x - voxel.x, high_front_.y - voxel.y, high_front_.z - voxel.z};
+  const std::size_t parity = OpeningRaySet::parity_of(voxel);
+  for (std::size_t own = 0; own < OpeningRaySet::kSets; ++own) {
+    const OpeningRaySet& set = OpeningRaySet::of(own, face);
+    for (std::size_t ray = 0; ray < kRays; ++ray) {
+      std::array<int, 3> step{}, most{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        const bool down = (set.down[ray] >> a & 1) != 0;
+        step[a] = down ? -1 : 1;
+        most[a] = down ? above[a] : below[a];
+      }
+      /// @return whether what lies further back may be of interest.
+      const auto ask = [&](const std::array<int, 3>& steps, bool is_of_set) {
+        if (steps[0] > most[0] || steps[1] > most[1] || steps[2] > most[2]) return false;
+        const std::array<int, 3> its{at[0] - step[0] * steps[0], at[1] - step[1] * steps[1],
+                                     at[2] - step[2] * steps[2]};
+        const std::uint64_t cell = bits_of_cell(cell_at(its[0], its[1], its[2]));
+        if ((cell & kRock) != 0) return false;
+        if (!is_of_set || (cell & kHasFront) == 0) return true;
+        const IVec3 front = low + IVec3{its[0], its[1], its[2]};
+        if (!fronts_.bit(fronts_.bit_at(front))) return true;
+        const auto place = places_.find(key_of(front, face));
+        if (place != places_.end()) fn(place->second, ray);
+        return true;
+      };
+      bool on = true;
+      for (const OpeningRaySet::Steps& steps : set.steps(ray, parity ^ own)) {
+        on = ask({steps[0], steps[1], steps[2]}, true);
+        if (!on) break;
+      }
+      if (!on) continue;
+      const OpeningRaySet::Steps& counted = set.after_counted[ray];
+      std::array<int, 3> steps{counted[0], counted[1], counted[2]};
+      if (!ask(steps, false)) continue;
+      for_each_plane(set.rays[ray], OpeningRaySet::kCountedPlanes, [&](std::size_t axis) {
+        ++steps[axis];
+        return ask(steps,
+                   OpeningRaySet::parity_of({steps[0], steps[1], steps[2]}) == (parity ^ own));
+      });
+    }
   }
-  // In doubles: over some hundred voxels squares of floats would lose what corners need.
-  const double nearest = static_cast<double>(distance2) -
-                         static_cast<double>(kAboutVoxel) * static_cast<double>(kAboutVoxel);
-  const glm::dvec3 to(way);
-  for_each_ray(may, [&](std::size_t i) {
-    const glm::dvec3 ray(set.directions[0][i], set.directions[1][i], set.directions[2][i]);
-    const double along = glm::dot(to, ray);  // up to where it comes nearest
-    const bool touches = nearest <= 0.0 || (along > 0.0 && along * along >= nearest);
-    out |= static_cast<std::uint64_t>(touches) << i;
-  });
-  return out;
 }
 
 std::vector<OpeningRays::Face> OpeningRays::changed(std::span<const IVec3> voxels) {
+  for (const IVec3& voxel : voxels)
+    if (!air_.opaque.at(voxel)) clear_rock_about(voxel);
+  std::map<std::uint32_t, std::uint64_t> again;
+  for (const IVec3& voxel : voxels)
+    for (int face = 0; face < 6; ++face) {
+      const auto own = places_.find(key_of(voxel, face));
+      if (own != places_.end()) again[own->second] = ~std::uint64_t{0};
+      for_each_through(voxel, face, [&](std::uint32_t place, std::size_t ray) {
+        again[place] |= std::uint64_t{1} << ray;
+      });
+    }
   std::vector<Face> out;
-  if (voxels.empty()) return out;
-  for (Known& face : known_) {
-    std::uint64_t rays = voxels.size() > kMostChanged ? ~std::uint64_t{0} : 0;
-    if (rays == 0)
-      for (const IVec3& voxel : voxels) rays |= rays_to(face, voxel);
-    if (rays == 0) continue;
+  for (const auto& [place, rays] : again) {
+    Known& face = known_[place];
     const Known before = face;
     look(face, rays);
     if (face.rays != before.rays || ((face.glass | before.glass) & rays) != 0)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "world/light/air_volume.h"
+#include "world/light/base/opening_ray_sets.h"
 #include "world/light/base/seen_sky.h"
 #include "world/light/lattice_lines.h"
 #include "world/light/voxel_index.h"
@@ -25,7 +26,7 @@ namespace skerry::world {
 /// at edges or corners stays dark, and is stopped where a line would be (decision 0087).
 class OpeningRays {
  public:
-  static constexpr std::size_t kRays = 64;
+  static constexpr std::size_t kRays = OpeningRaySet::kRays;
   /// Of a face's lines, the most that see the sky where rays are asked.
   static constexpr int kFewLines = 8;
   /// Voxels, along each axis, within which a line must see the sky from beside an opaque voxel if
@@ -75,6 +76,11 @@ class OpeningRays {
     int face = 0;
     std::uint64_t rays = 0, glass = 0;  // those that see the sky, and that pass glass on the way
   };
+  static constexpr int kCell = 4;
+  static constexpr std::uint64_t kHasFront = 1, kRock = 2;
+  /// Number of a cell's first bit. @param x, y, z from the box's lowest corner.
+  std::size_t cell_at(int x, int y, int z) const;
+  std::uint64_t bits_of_cell(std::size_t cell) const { return cells_[cell / 64] >> cell % 64 & 3; }
   static std::uint64_t key_of(IVec3 front, int face);
   bool is_lit_now(IVec3 voxel) const;
   bool sees_sky_at(std::size_t number) const;
@@ -87,14 +93,22 @@ class OpeningRays {
   bool comes_to_sky(IVec3 front, int face, std::size_t ray) const;
   /// Follows these again.
   void look(Known& face, std::uint64_t rays) const;
-  /// Those that may touch a voxel.
-  std::uint64_t rays_to(const Known& face, IVec3 voxel) const;
+  void mark_rock();
+  void clear_rock_about(IVec3 voxel);
+  void add_front(IVec3 voxel);
+  template <class Fn>
+  void for_each_through(IVec3 voxel, int face, const Fn& fn) const;
 
   const AirVolume& air_;
   const LatticeLines& lines_;
   const VoxelIndex& wanted_;
   const SeenSky& seen_;
   VoxelBits lit_;
+  VoxelBits fronts_;              // from which rays of known_ begin
+  IVec3 low_front_, high_front_;  // a box about them
+  // Two bits for each kCell^3 voxels: whether one of them is in fronts_, and whether all of them
+  // and all next to the cell are opaque. These are so few that processors keep them close by.
+  std::vector<std::uint64_t> cells_;
   std::vector<Known> known_;
   std::unordered_map<std::uint64_t, std::uint32_t> places_;  // in known_, by key_of()
 };

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "tests/world/light/voxel_rooms.h"
 
@@ -123,6 +125,82 @@ TEST(OpeningRays, SeeOfTheSkyThroughAWindowWhatAnIntegralSays) {
   EXPECT_LT(rmse, 0.4) << of_lines << " by lines alone";
   EXPECT_GT(of_lines, 1.5 * rmse);
   EXPECT_LT(std::abs(difference / mean), 0.05);
+}
+
+std::unique_ptr<SkyTransfer> looked_at(const LightChunks& chunks) {
+  auto transfer = std::make_unique<SkyTransfer>(chunks);
+  for (int octant = 0; octant < kOctants; ++octant) transfer->look(octant);
+  transfer->make_faces();
+  return transfer;
+}
+
+/// Records that differ, of chunks that both have.
+std::size_t differences(const SkyTransfer::Skies& a, const SkyTransfer::Skies& b) {
+  std::size_t count = 0;
+  for (const auto& [at, sky] : a) {
+    const auto other = b.find(at);
+    if (other == b.end()) continue;
+    for_each_record(*sky, [&](IVec3 voxel, int direction, std::size_t record) {
+      const auto its = find_record(*other->second, voxel, direction);
+      if (!its) return;
+      for (std::size_t i = 0; i < sky->record_texels(); ++i)
+        if (sky->texels[record + i] != other->second->texels[*its + i]) {
+          ++count;
+          return;
+        }
+    });
+  }
+  return count;
+}
+
+// A room in rock with a window to one side. Screens come and go so far away that rays cross more
+// planes than are counted and kept, at once and close by; a shaft is dug up from it, and closed.
+TEST(OpeningRays, AreFollowedAgainFromFarAwayAndWhereRockIsDug) {
+  constexpr int kRoom = 6, kRock = 18, kFar = 300, kScreen = 40;
+  Voxels stone;
+  for (int x = -kRock; x <= kRoom; ++x)
+    for (int y = -kRock; y < kRoom + kRock; ++y)
+      for (int z = -kRock; z < kRoom + kRock; ++z) {
+        const bool inside = x >= -10 && x < kRoom && y >= 0 && y < kRoom && z >= 0 && z < kRoom;
+        const bool window = x == kRoom && y >= 1 && y < 5 && z >= 1 && z < 5;
+        if (!inside && !window) stone.insert({x, y, z});
+      }
+  stone.insert({kFar + 2, -22, -22});  // the kept volume holds all that comes
+  stone.insert({kFar + 2, 22, 22});
+  const auto screen = [&](int x, int y, int z, int edge) {
+    Voxels out;
+    for (int j = 0; j < edge; ++j)
+      for (int k = 0; k < edge; ++k) out.insert({x, y + j, z + k});
+    return out;
+  };
+  Voxels shaft;
+  for (int y = kRoom; y < kRoom + kRock; ++y)
+    for (int i = 0; i < 4; ++i) shaft.insert({-7 + i % 2, y, 2 + i / 2});
+  struct Change {
+    Voxels voxels;
+    bool come;
+  };
+  const std::vector<Change> changes{{screen(kFar, -20, -20, kScreen), true},
+                                    {screen(kRoom + 4, 2, 2, 2), true},
+                                    {shaft, false},
+                                    {screen(kFar, -20, -20, kScreen), false},
+                                    {screen(kRoom + 4, 2, 2, 2), false},
+                                    {Voxels{{-7, kRoom + kRock - 1, 2}}, true},
+                                    {Voxels{{-7, kRoom + kRock - 1, 2}}, false}};
+  LightChunks chunks = chunks_of(stone);
+  auto edited = looked_at(chunks);
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    for (const IVec3& voxel : changes[i].voxels)
+      if (changes[i].come)
+        stone.insert(voxel);
+      else
+        stone.erase(voxel);
+    const SkyTransfer::Skies before = edited->faces();
+    chunks = chunks_of(stone);
+    ASSERT_TRUE(edited->edit(chunks)) << i;
+    EXPECT_EQ(differences(looked_at(chunks)->faces(), edited->faces()), 0u) << i;
+    EXPECT_GT(differences(before, edited->faces()), 0u) << i;
+  }
 }
 
 }  // namespace
