@@ -140,11 +140,12 @@ std::size_t differences(const SkyTransfer::Skies& a, const SkyTransfer::Skies& b
   for (const auto& [at, sky] : a) {
     const auto other = b.find(at);
     if (other == b.end()) continue;
-    for_each_record(*sky, [&](IVec3 voxel, int direction, std::size_t record) {
-      const auto its = find_record(*other->second, voxel, direction);
-      if (!its) return;
-      for (std::size_t i = 0; i < sky->record_texels(); ++i)
-        if (sky->texels[record + i] != other->second->texels[*its + i]) {
+    const ChunkSky &its = *sky, &others = *other->second;
+    for_each_record(its, [&](IVec3 voxel, int direction, std::size_t record) {
+      const auto same = find_record(others, voxel, direction);
+      if (!same) return;
+      for (std::size_t i = 0; i < its.record_texels(); ++i)
+        if (its.texels[record + i] != others.texels[*same + i]) {
           ++count;
           return;
         }
