@@ -376,9 +376,12 @@ std::vector<OpeningRays::Face> OpeningRays::changed(std::span<const IVec3> voxel
 
 std::size_t OpeningRays::bytes() const {
   constexpr std::size_t kNode = 4 * sizeof(void*);  // of a map's entry, and its share of the table
-  return known_.capacity() * sizeof(Known) + places_.size() * kNode +
-         static_cast<std::size_t>(lit_.row_words() + 2) * static_cast<std::size_t>(lit_.size().x) *
-             static_cast<std::size_t>(lit_.size().y) * sizeof(std::uint64_t);
+  const auto bytes_of = [](const VoxelBits& bits) {
+    return static_cast<std::size_t>(bits.row_step()) * static_cast<std::size_t>(bits.size().x) *
+           static_cast<std::size_t>(bits.size().y) * sizeof(std::uint64_t);
+  };
+  return known_.capacity() * sizeof(Known) + places_.size() * kNode + bytes_of(lit_) +
+         bytes_of(fronts_) + cells_.capacity() * sizeof(std::uint64_t);
 }
 
 }  // namespace skerry::world
