@@ -76,6 +76,7 @@ class VoxelBits {
   const std::uint64_t* row(int x, int y) const { return words_.data() + index(x, y); }
   /// Words from a row to that of the next x.
   std::ptrdiff_t row_step() const { return row_words() + 2; }
+  std::size_t bytes() const { return words_.capacity() * sizeof(std::uint64_t); }
   bool has_row(int x, int y) const { return x >= 0 && x < size_.x && y >= 0 && y < size_.y; }
 
   /// Number of a voxel's bit; of a voxel a vector further, bit_at() + bit_step(). Holds for z up to

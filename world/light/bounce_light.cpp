@@ -128,11 +128,12 @@ BounceLight::Light BounceLight::unpacked(const PackedLight& light) {
 // --- Faces ---
 
 BounceLight::BounceLight(const LightChunks& chunks, const AirVolume& air, const LatticeLines& lines,
-                         const VoxelIndex& wanted, const GlassTints& tints,
+                         OpeningRayWays& ways, const VoxelIndex& wanted, const GlassTints& tints,
                          std::span<const FaceAlbedo> albedo, int bounces, const KeyDirections& keys)
     : steps_(bounces + 1),
       air_(air),
       lines_(lines),
+      ways_(ways),
       wanted_(wanted),
       tints_(tints),
       albedo_(albedo) {
@@ -148,10 +149,15 @@ BounceLight::BounceLight(const LightChunks& chunks, const AirVolume& air, const 
       });
   }
   relit_.clear();
-  sources_.resize(faces_.size());
+  make_room();
   for (std::vector<PackedLight>& light : leaving_) light.resize(faces_.size());
   for (std::size_t slot = 0; slot < keys.size(); ++slot)
     if (keys[slot]) set_key(slot, *keys[slot]);
+}
+
+void BounceLight::make_room() {
+  sources_.resize(faces_.size());
+  if (tints_.any()) glass_on_rays_.resize(faces_.size(), 0);
 }
 
 BounceLight::Number BounceLight::number_of(IVec3 front, int direction) const {
@@ -182,8 +188,9 @@ bool BounceLight::set_face(IVec3 front, int direction, std::uint16_t block, bool
       number = 1 + free_faces_.back();
       free_faces_.pop_back();
     }
-    faces_[number - 1] = {front,           0,     static_cast<std::uint8_t>(direction),
-                          depth_of(front), false, false};
+    faces_[number - 1] = {.front = front,
+                          .direction = static_cast<std::uint8_t>(direction),
+                          .depth = depth_of(front)};
     relit_.add(number - 1);
   }
   Face& face = faces_[number - 1];
@@ -288,17 +295,19 @@ void BounceLight::take_water(const LightChunks& chunks) {
     for (const Water& one : *all) look(one.voxel);
 }
 
-// --- Lines ---
+// --- Lines and rays ---
 
-/// The face that it comes in by, or the plant that stops it.
-BounceLight::Source BounceLight::source_at(IVec3 last, std::size_t way) const {
-  const std::vector<LatticeLines::Passed>& passed = lines_.way(way).passed;
-  const std::size_t count = lines_.passed_before_stop(last, way);
-  const IVec3 before = count == 0 ? last : last + passed[count - 1].offset;
-  const Number face = number_of(before, passed[count].entered);
+/// The face that a line or ray comes in by, or the plant that stops it. @param voxel that stops it.
+BounceLight::Source BounceLight::source_of(IVec3 voxel, int entered) const {
+  const Number face = number_of(voxel + to_front({{}, entered, false}), entered);
   if (face != 0) return face;
-  const Number plant = number_of(last + passed[count].offset, 2);
+  const Number plant = number_of(voxel, 2);
   return plant != 0 && faces_[plant - 1].plant ? plant : kNothing;
+}
+
+BounceLight::Source BounceLight::source_at(IVec3 last, std::size_t way) const {
+  const LatticeLines::Passed& stop = lines_.way(way).passed[lines_.passed_before_stop(last, way)];
+  return source_of(last + stop.offset, stop.entered);
 }
 
 /// Which of the vectors of an octant a face looks along: every so many from there, others than its
@@ -328,8 +337,26 @@ BounceLight::Source BounceLight::look(IVec3 from, std::size_t way) const {
   return last ? source_at(*last, way) : kNothing;
 }
 
-void BounceLight::look_along(Number number, const SeenSky& seen) {
+void BounceLight::look_along_ray(Number number, std::size_t ray) {
   const Face& face = faces_[number];
+  const auto end = ways_.end_of(face.front, face.direction, ray);
+  const Source source = end ? source_of(end->voxel, end->entered) : kNothing;
+  sources_[number][ray] = source;
+  if (glass_on_rays_.empty()) return;
+  const std::uint64_t bit = std::uint64_t{1} << ray;
+  if (source != kNothing && ways_.passes_glass(face.front, face.direction, ray))
+    glass_on_rays_[number] |= bit;
+  else
+    glass_on_rays_[number] &= ~bit;
+}
+
+void BounceLight::look_along(Number number, const SeenSky& seen) {
+  Face& face = faces_[number];
+  face.rays = has_rays(face, seen);
+  if (face.rays) {
+    for (std::size_t ray = 0; ray < kLastRays; ++ray) look_along_ray(number, ray);
+    return;
+  }
   const std::size_t voxel = wanted_.of(face.front);
   std::array<Source, kLines>& sources = sources_[number];
   std::size_t quarter = 0;
@@ -349,11 +376,11 @@ void BounceLight::look_along(Number number, const SeenSky& seen) {
 }
 
 void BounceLight::set_line(IVec3 voxel, std::size_t way, Source source) {
-  sources_.resize(faces_.size());
+  make_room();
   const std::size_t fan = way / kPatterns;
   const int axis = axis_of(fan), direction = 2 * axis + (octant_of(fan) >> axis & 1);
   const Number number = number_of(voxel, direction);
-  if (number == 0) return;
+  if (number == 0 || faces_[number - 1].rays) return;
   const auto& fans = hemisphere(direction).fans;
   const auto quarter =
       static_cast<std::size_t>(std::find(fans.begin(), fans.end(), fan) - fans.begin());
@@ -364,16 +391,46 @@ void BounceLight::set_line(IVec3 voxel, std::size_t way, Source source) {
   });
 }
 
+void BounceLight::look_again(Number number, const SeenSky& seen) {
+  look_along(number, seen);
+  relooked_.add(number);
+  for (const Source source : sources_[number]) add_reader(source, number);
+  if (faces_[number].rays && ways_.has_origins()) ways_.add_origin(faces_[number].front);
+}
+
 void BounceLight::look_from(IVec3 voxel, const SeenSky& seen) {
   const std::size_t base = wanted_.of(voxel) * 6;
-  sources_.resize(faces_.size());
+  make_room();
+  for (std::size_t direction = 0; direction < 6; ++direction)
+    if (const Number number = numbers_[base + direction]) look_again(number - 1, seen);
+}
+
+void BounceLight::choose_rays(IVec3 voxel, const SeenSky& seen) {
+  const std::size_t base = wanted_.of(voxel) * 6;
   for (std::size_t direction = 0; direction < 6; ++direction) {
     const Number number = numbers_[base + direction];
-    if (number == 0) continue;
-    look_along(number - 1, seen);
-    relooked_.add(number - 1);
-    for (const Source source : sources_[number - 1]) add_reader(source, number - 1);
+    if (number == 0 || faces_[number - 1].rays == has_rays(faces_[number - 1], seen)) continue;
+    look_again(number - 1, seen);
   }
+}
+
+void BounceLight::add_origins() const {
+  for (const Face& face : faces_)
+    if (face.rays && number_of(face.front, face.direction) != 0) ways_.add_origin(face.front);
+}
+
+void BounceLight::follow_ray(IVec3 front, int face, std::size_t ray) {
+  if (ray >= kLastRays) return;
+  const Number number = number_of(front, face);
+  if (number == 0 || !faces_[number - 1].rays) return;
+  const bool had_glass = !glass_on_rays_.empty() && (glass_on_rays_[number - 1] >> ray & 1) != 0;
+  const Source before = sources_[number - 1][ray];
+  look_along_ray(number - 1, ray);
+  const Source source = sources_[number - 1][ray];
+  const bool has_glass = !glass_on_rays_.empty() && (glass_on_rays_[number - 1] >> ray & 1) != 0;
+  if (source == before && !had_glass && !has_glass) return;
+  relooked_.add(number - 1);
+  if (source != before) add_reader(source, number - 1);
 }
 
 void BounceLight::relight(IVec3 voxel) {
@@ -453,25 +510,48 @@ void BounceLight::look_at_bodies(Number number) {
           bodies_[slot]->on_face(faces_[number].front, faces_[number].direction));
 }
 
-/// Calls fn(face, share of its light, tint or null) for the faces at which a face's lines end.
+/// Of lines or rays that a step takes.
+std::span<const BounceLight::Source> BounceLight::sources_of(Number number, int step) const {
+  const std::span<const Source> all(sources_[number]);
+  if (faces_[number].rays) return all.first(is_last(step) ? kLastRays : kFirstRays);
+  return is_last(step) ? all.last(kLastLines) : all.first(kFirstLines);
+}
+
+/// Calls fn(face, share of its light, what glass leaves of it or null) for the faces at which a
+/// face's lines or rays end.
 template <class Fn>
 void BounceLight::for_each_sender(Number number, int step, const Fn& fn) const {
   const Face& face = faces_[number];
+  const std::span<const Source> sources = sources_of(number, step);
+  if (face.rays) {
+    const std::uint64_t glass = glass_on_rays_.empty() ? 0 : glass_on_rays_[number];
+    const float weight = kPi / static_cast<float>(sources.size());
+    for (std::size_t ray = 0; ray < sources.size(); ++ray) {
+      if (sources[ray] == kNothing) continue;
+      if ((glass >> ray & 1) == 0) {
+        fn(sources[ray] - 1, weight, nullptr);
+        continue;
+      }
+      const glm::vec3 left = ways_.left_by_glass(face.front, face.direction, ray);
+      fn(sources[ray] - 1, weight, &left);
+    }
+    return;
+  }
   const Hemisphere& way = hemisphere(face.direction);
-  const bool last = is_last(step);
-  const std::uint32_t every = last ? kLastEvery : kFirstEvery, first = first_of(face, every);
+  const std::uint32_t every = is_last(step) ? kLastEvery : kFirstEvery,
+                      first = first_of(face, every);
   float looked = 0.0f;
   for (std::size_t k = first; k < kPatterns; k += every) looked += way.weight[k];
   const float whole = kIrradianceOfOctant / looked;
   const std::size_t voxel = tints_.any() ? wanted_.of(face.front) : 0;
-  const Source* source = sources_[number].data() + (last ? kFirstLines : 0);
+  const Source* source = sources.data();
   for (std::size_t quarter = 0; quarter < 4; ++quarter) {
     const GlassTints::Tints* tints = tints_.any() ? tints_.find(voxel, way.fans[quarter]) : nullptr;
     for (std::size_t k = first; k < kPatterns; k += every, ++source) {
       if (*source == kNothing) continue;
       const float weight = way.weight[k] * whole;
       const GlassTints::Tint* tint = tints ? tint_of(*tints, k) : nullptr;
-      fn(*source - 1, weight, tint);
+      fn(*source - 1, weight, tint ? &tint->left : nullptr);
     }
   }
 }
@@ -480,9 +560,9 @@ void BounceLight::for_each_sender(Number number, int step, const Fn& fn) const {
 BounceLight::Light BounceLight::gathered(Number number, int step) const {
   const std::vector<PackedLight>& leaving = leaving_[static_cast<std::size_t>(step - 1)];
   Light sum;
-  for_each_sender(number, step, [&](Number from, float share, const GlassTints::Tint* tint) {
+  for_each_sender(number, step, [&](Number from, float share, const glm::vec3* left) {
     Light light = unpacked(leaving[from]);
-    if (tint) light.tint(tint->left);
+    if (left) light.tint(*left);
     sum.add(light, share);
   });
   return sum;
@@ -515,7 +595,7 @@ void BounceLight::follow(int step, int part, const SeenSky& seen, const LampLigh
 void BounceLight::set_key(std::size_t slot, const glm::vec3& to_body) {
   bodies_[slot].emplace(air_, to_body);
   from_body_[slot].assign(faces_.size(), 0);
-  sources_.resize(faces_.size());
+  make_room();
 }
 
 // As light_of() has it for all light.
@@ -531,9 +611,9 @@ void BounceLight::follow_key(std::size_t slot, int step, int part) {
     glm::vec3 sum(0.0f);
     if (step > 0) {
       const std::vector<PackedLight>& before = leaving_[static_cast<std::size_t>(step - 1)];
-      for_each_sender(number, step, [&](Number from, float share, const GlassTints::Tint* tint) {
+      for_each_sender(number, step, [&](Number from, float share, const glm::vec3* left) {
         glm::vec3 light = unpack_shared_exponent(before[from].keyed[slot]);
-        if (tint) light *= tint->left;
+        if (left) light *= *left;
         sum += share * light;
       });
     }
@@ -551,7 +631,7 @@ void BounceLight::follow_key(std::size_t slot, int step, int part) {
 std::size_t BounceLight::bytes() const {
   std::size_t bytes = numbers_.size() * sizeof(Number) + faces_.size() * sizeof(Face) +
                       sources_.size() * sizeof(sources_[0]) + readers_.size() * sizeof(Number) +
-                      water_.size() * sizeof(Water);
+                      water_.size() * sizeof(Water) + glass_on_rays_.size() * sizeof(std::uint64_t);
   for (const std::vector<std::uint32_t>& from : from_body_)
     bytes += from.size() * sizeof(std::uint32_t);
   for (const std::vector<PackedLight>& light : leaving_)
@@ -584,11 +664,9 @@ void BounceLight::add_reader(Source source, Number reader) {
 
 /// Whether a face receives at a step what has changed at the step before.
 bool BounceLight::comes_from(Number number, int step, const Marked& changed) const {
-  const bool last = is_last(step);
-  const std::span<const Source> sources(sources_[number]);
-  return std::ranges::any_of(
-      last ? sources.last(kLastLines) : sources.first(kFirstLines),
-      [&](Source source) { return source != kNothing && changed.has(source - 1); });
+  return std::ranges::any_of(sources_of(number, step), [&](Source source) {
+    return source != kNothing && changed.has(source - 1);
+  });
 }
 
 std::vector<BounceLight::Changed> BounceLight::follow_changes(const SeenSky& seen,

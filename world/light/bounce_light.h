@@ -16,6 +16,7 @@
 #include "world/light/glass_tints.h"
 #include "world/light/lamp_light.h"
 #include "world/light/lattice_lines.h"
+#include "world/light/opening_ray_ways.h"
 #include "world/light/voxel_index.h"
 
 namespace skerry::world {
@@ -40,10 +41,13 @@ using KeyDirections = std::array<std::optional<glm::vec3>, 2>;
 /// smooth function of w: it is kept as harmonics, so that day and night move without any work here.
 /// Its colour is that of its mean. A face looks along half of the 64 lattice vectors of its
 /// hemisphere, its neighbours along the other half, and for all reflections but the last along a
-/// quarter. A line that does not end at the sky ends at the first voxel that it comes to, and what
-/// comes from there is the light of the face that it enters through, from the air that it came by.
-/// Harmonics blur the edges of sun and shade, which do not move as smoothly as what is reflected of
-/// the sky: from a key direction, each face has what BodyRays say.
+/// quarter. Where none of its lines sees the sky, in caves and rooms, it looks along rays of
+/// OpeningRaySet in their place, 48 and 16: lattice vectors meet the same bright places from all
+/// faces of a wall, which shows where there is no other light (decision 0089). A line or ray that
+/// does not end at the sky ends at the first voxel that it comes to, and what comes from there is
+/// the light of the face that it enters through, from the air that it came by. Harmonics blur the
+/// edges of sun and shade, which do not move as smoothly as what is reflected of the sky: from a
+/// key direction, each face has what BodyRays say.
 ///
 /// What leaves a face under level water has passed that twice: left_by_water().
 ///
@@ -76,8 +80,9 @@ class BounceLight {
   /// @param wanted holds the voxel before each face and that of each plant. All but the chunks must
   /// outlive this. @param albedo by block id. @param bounces 1 to kBounces, fewer for comparison.
   BounceLight(const LightChunks& chunks, const AirVolume& air, const LatticeLines& lines,
-              const VoxelIndex& wanted, const GlassTints& tints, std::span<const FaceAlbedo> albedo,
-              int bounces = kBounces, const KeyDirections& keys = {});
+              OpeningRayWays& ways, const VoxelIndex& wanted, const GlassTints& tints,
+              std::span<const FaceAlbedo> albedo, int bounces = kBounces,
+              const KeyDirections& keys = {});
 
   /// One more than bounces.
   int steps() const { return steps_; }
@@ -123,15 +128,22 @@ class BounceLight {
   bool set_face(IVec3 front, int direction, std::uint16_t block, bool plant);
   void remove_face(IVec3 front, int direction, bool plant);
 
-  /// What comes along a line, for set_line(): 1 + number of the face at which it ends.
+  /// What comes along a line or a ray: 1 + number of the face at which it ends.
   using Source = std::uint32_t;
   static constexpr Source kNothing = 0;
   /// @param last as LatticeLines::end_of has it.
   Source source_at(IVec3 last, std::size_t way) const;
   /// Sets it for the faces before which a voxel is.
   void set_line(IVec3 voxel, std::size_t way, Source source);
-  /// Looks along all lines of the faces before which a voxel is.
+  /// Looks along all lines and rays of the faces before which a voxel is.
   void look_from(IVec3 voxel, const SeenSky& seen);
+  /// Tells the ways where rays begin, once they are to know.
+  void add_origins() const;
+  /// A ray from a face may end elsewhere or pass other glass, if the face has rays.
+  void follow_ray(IVec3 front, int face, std::size_t ray);
+  /// The faces before which a voxel is may see the sky along more or fewer lines: rays take their
+  /// places, or they those of rays.
+  void choose_rays(IVec3 voxel, const SeenSky& seen);
   /// The direct light of the faces before which a voxel is has changed.
   void relight(IVec3 voxel);
   /// Glass leaves another share of what comes along lines of the faces before which a voxel is.
@@ -155,6 +167,7 @@ class BounceLight {
   static constexpr std::size_t kFirstLines = kPatterns;     // of a face: a quarter of its 64
   static constexpr std::size_t kLastLines = 2 * kPatterns;  // half of them
   static constexpr std::size_t kLines = kFirstLines + kLastLines;
+  static constexpr std::size_t kFirstRays = 16, kLastRays = kLines;  // these include those
   struct Face {
     IVec3 front{};
     std::uint16_t block = 0;
@@ -162,6 +175,7 @@ class BounceLight {
     std::uint8_t depth = 0;  // in voxels, of the voxel before it under water; 0: it is in the air
     bool ground = false;     // a block's face
     bool plant = false;      // a plant stands there; on a block's face it shares its light
+    bool rays = false;       // it looks along rays in place of lines
   };
   /// Light in 24 bytes: to 1/512 of its brightest channel, shape to 1/254 of its greatest.
   struct PackedLight {
@@ -181,6 +195,14 @@ class BounceLight {
                      const Fn& fn) const;
   Source look(IVec3 from, std::size_t way) const;
   void look_along(Number number, const SeenSky& seen);
+  void look_along_ray(Number number, std::size_t ray);
+  void look_again(Number number, const SeenSky& seen);
+  bool has_rays(const Face& face, const SeenSky& seen) const {
+    return seen.lines_of_face(wanted_.of(face.front), face.direction) == 0;
+  }
+  Source source_of(IVec3 voxel, int entered) const;
+  std::span<const Source> sources_of(Number number, int step) const;
+  void make_room();
   Light lost_to_glass(std::size_t voxel, const Face& face, const SeenSky& seen) const;
   Light direct_of(const Face& face, const SeenSky& seen, const LampLightMap& lamps) const;
   template <class Fn>
@@ -209,6 +231,7 @@ class BounceLight {
   int steps_;
   const AirVolume& air_;
   const LatticeLines& lines_;
+  OpeningRayWays& ways_;
   const VoxelIndex& wanted_;
   const GlassTints& tints_;
   std::span<const FaceAlbedo> albedo_;
@@ -220,9 +243,11 @@ class BounceLight {
   std::array<std::vector<std::uint32_t>, std::tuple_size_v<KeyDirections>> from_body_;
   std::vector<Number> free_faces_;
   std::vector<Number> numbers_;  // 1 + of faces_, by voxel and direction; 0: none
-  std::vector<std::array<Source, kLines>> sources_;  // by face: of first reflections, of the last
-  // Of each face those with a line to it, and some that had one: from `first_reader_` to that of
-  // the next face; then what edits have added. Made when the first edit is followed.
+  // By face: of lines, those of the first reflections, then of the last; or of rays.
+  std::vector<std::array<Source, kLines>> sources_;
+  std::vector<std::uint64_t> glass_on_rays_;  // a bit each; empty: there is no stained glass
+  // Of each face those with a line or a ray to it, and some that had one: from `first_reader_` to
+  // that of the next face; then what edits have added. Made when the first edit is followed.
   std::vector<std::uint32_t> first_reader_;
   std::vector<Number> readers_;
   std::unordered_map<Number, std::vector<Number>> more_readers_;

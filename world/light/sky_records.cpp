@@ -99,7 +99,7 @@ Tinted tint_lobes(const SeenSky& seen, const GlassTints& tints, std::size_t voxe
 }
 
 /// As tint_lobes(), where rays are asked.
-Tinted tint_rays(const OpeningRays& openings, IVec3 voxel, int face, std::uint64_t rays,
+Tinted tint_rays(const OpeningRayWays& ways, IVec3 voxel, int face, std::uint64_t rays,
                  LobeShares& lobes) {
   constexpr float kWeight = 4.0f * 65280.0f / OpeningRays::kRays;
   Tinted out;
@@ -109,7 +109,7 @@ Tinted tint_rays(const OpeningRays& openings, IVec3 voxel, int face, std::uint64
     const auto whole =
         static_cast<float>(OpeningRays::lobes(voxel, face, std::uint64_t{1} << ray)[lobe]);
     out += {glm::vec3(kWeight), kWeight};
-    tint_lobe(lobes[lobe], whole, kWeight, openings.left_by_glass_on(voxel, face, ray), out);
+    tint_lobe(lobes[lobe], whole, kWeight, ways.left_by_glass(voxel, face, ray), out);
   }
   return out;
 }
@@ -217,7 +217,7 @@ glm::uvec4 SkyTransfer::tint_corners(const Around& around, int face, std::span<V
     if (!around.air[at]) continue;
     const IVec3 voxel = around.voxels[at];
     View& view = views[at];
-    tinted[at] = view.rays ? tint_rays(openings_, voxel, face, *view.rays, view.lobes)
+    tinted[at] = view.rays ? tint_rays(ways_, voxel, face, *view.rays, view.lobes)
                            : tint_lobes(seen_, tints_, wanted_.of(voxel), face, view.lobes);
     all += tinted[at];
   }

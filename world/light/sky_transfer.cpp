@@ -77,7 +77,8 @@ SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo,
       air_(air_volume_of(chunks_, 2 + spare)),
       lines_(air_),
       tints_(air_, lines_, wanted_),
-      openings_(air_, lines_, wanted_, seen_) {
+      ways_(air_, lines_),
+      openings_(air_, ways_, wanted_, seen_) {
   const IVec3 low = air_.opaque.low(), size = air_.opaque.size();
   if (size.x == 0) return;
   VoxelBits wanted(low, size, false);
@@ -99,7 +100,7 @@ SkyTransfer::SkyTransfer(LightChunks chunks, std::span<const FaceAlbedo> albedo,
   most_numbers_ = wanted_.size() + wanted_.size() / 4 + kSpareNumbers;
   seen_ = SeenSky(wanted_.size());
   if (!albedo.empty())
-    bounces_.emplace(chunks_, air_, lines_, wanted_, tints_, albedo, bounces, keys);
+    bounces_.emplace(chunks_, air_, lines_, ways_, wanted_, tints_, albedo, bounces, keys);
 }
 
 void SkyTransfer::look(int octant) {
@@ -214,8 +215,8 @@ void SkyTransfer::spread(const Lamp& lamp, LampLightMap& into) const {
 }
 
 std::size_t SkyTransfer::bytes() const {
-  return seen_.bytes() + openings_.bytes() + lamp_light_.bytes() + all_lamps_.bytes() +
-         tints_.bytes() + (bounces_ ? bounces_->bytes() : 0);
+  return seen_.bytes() + ways_.bytes() + openings_.bytes() + lamp_light_.bytes() +
+         all_lamps_.bytes() + tints_.bytes() + (bounces_ ? bounces_->bytes() : 0);
 }
 
 void SkyTransfer::follow_bounces(int step, int part) {

@@ -14,6 +14,7 @@
 #include "world/light/base/face_records.h"
 #include "world/light/bounce_light.h"
 #include "world/light/glass_tints.h"
+#include "world/light/opening_ray_ways.h"
 #include "world/light/opening_rays.h"
 
 namespace skerry::world {
@@ -138,6 +139,7 @@ class SkyTransfer {
   VoxelIndex wanted_;  // voxels whose view is kept
   SeenSky seen_;
   GlassTints tints_;
+  OpeningRayWays ways_;
   OpeningRays openings_;
   LampLightMap lamp_light_;  // of weak lamps
   LampLightMap all_lamps_;   // whose light is followed further

@@ -267,7 +267,31 @@ class SkyTransfer::Edit {
 
   /// Rays through openings, and where they are asked.
   void look_through_openings() {
-    for (const OpeningRays::Face& face : of_.openings_.changed(voxels_))
+    if (!of_.ways_.has_origins()) {
+      of_.ways_.begin_origins();
+      of_.openings_.add_origins();
+      if (of_.bounces_) of_.bounces_->add_origins();
+    }
+    for (const IVec3& voxel : voxels_)
+      if (!of_.air_.opaque.at(voxel)) of_.ways_.opened(voxel);
+    for (const IVec3& voxel : voxels_) {
+      of_.openings_.changed_from(voxel);
+      of_.ways_.for_each_through(voxel, [&](IVec3 front, int face, std::size_t ray) {
+        of_.openings_.changed(front, face, ray);
+        if (of_.bounces_) of_.bounces_->follow_ray(front, face, ray);
+      });
+    }
+    if (of_.bounces_) {
+      for (const IVec3& voxel : lit_.voxels) of_.bounces_->choose_rays(voxel, of_.seen_);
+      if (of_.tints_.any())  // glass where rays begin
+        for (const IVec3& voxel : voxels_)
+          if (of_.wanted_.has(voxel)) of_.bounces_->look_from(voxel, of_.seen_);
+      for (const IVec3& voxel : through_)
+        of_.ways_.for_each_through(voxel, [&](IVec3 front, int face, std::size_t ray) {
+          of_.bounces_->follow_ray(front, face, ray);
+        });
+    }
+    for (const OpeningRays::Face& face : of_.openings_.follow_changed())
       redo_about(face.front, face.face);
     Kept near;  // where rays may be asked from now on, or no longer
     const auto retake = [&](IVec3 voxel) {

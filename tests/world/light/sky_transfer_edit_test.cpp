@@ -355,6 +355,51 @@ TEST(SkyTransferEdit, FollowsLeavesThatComeAndGo) {
   }
 }
 
+/// A closed room in one chunk: all light in it comes by rays.
+Voxels closed_room() {
+  Voxels stone;
+  for (int x = 8; x < 20; ++x)
+    for (int y = 8; y < 15; ++y)
+      for (int z = 8; z < 20; ++z)
+        if (x == 8 || x == 19 || y == 8 || y == 14 || z == 8 || z == 19) stone.insert({x, y, z});
+  return stone;
+}
+
+TEST(SkyTransferEdit, FollowsBlocksInAClosedRoom) {
+  Voxels stone = closed_room();
+  const auto now = [&] { return with_strong_lamps(chunks_of(stone, {{{12, 10, 12}}, 7.0f})); };
+  const std::unique_ptr<SkyTransfer> kept = looked_at(now());
+  std::mt19937 random(3);
+  const auto part = [&](int low, int high) {
+    return low + static_cast<int>(random() % static_cast<unsigned>(high - low));
+  };
+  for (int round = 0; round < 40; ++round) {
+    const IVec3 at{part(9, 19), part(9, 14), part(9, 19)};
+    if (at == IVec3{12, 10, 12}) continue;
+    if (stone.erase(at) == 0) stone.insert(at);
+    const LightChunks chunks = now();
+    ASSERT_TRUE(kept->edit(chunks)) << round;
+    ASSERT_EQ(differences(kept->faces(), looked_at(chunks)->faces()), 0u) << round;
+  }
+}
+
+// A face may go though no voxel does: whoever looks there sees nothing then.
+TEST(SkyTransferEdit, FollowsFacesThatComeAndGoAlone) {
+  const LightChunks whole = with_strong_lamps(chunks_of(closed_room(), {{{12, 10, 12}}, 7.0f}));
+  ASSERT_EQ(whole.size(), 1u);
+  const std::unique_ptr<SkyTransfer> kept = looked_at(whole);
+  const auto& [at, chunk] = *whole.begin();
+  for (std::size_t i = 0; i < chunk->quads.size(); i += 97) {
+    LightChunk less = *chunk;
+    less.quads.erase(less.quads.begin() + static_cast<std::ptrdiff_t>(i));
+    const LightChunks now{{at, std::make_shared<const LightChunk>(std::move(less))}};
+    for (const LightChunks& next : {now, whole}) {
+      ASSERT_TRUE(kept->edit(next)) << i;
+      ASSERT_EQ(differences(kept->faces(), looked_at(next)->faces()), 0u) << i;
+    }
+  }
+}
+
 // Rooms with windows, of air or of glass, in whose way blocks come and go: rays through them are
 // followed, and where they are asked changes too.
 TEST(SkyTransferEdit, FollowsWhatIsSeenThroughWindows) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,6 +21,13 @@ class SeenSky {
     for (std::vector<std::uint16_t>& fan : fans_) fan.resize(voxels, 0);
   }
   std::size_t bytes() const { return kFans * fans_[0].size() * sizeof(std::uint16_t); }
+
+  /// How many of the 64 lines of a face before a voxel see it.
+  int lines_of_face(std::size_t voxel, int face) const {
+    int lines = 0;
+    for (const std::size_t fan : fans_of_face(face)) lines += std::popcount(of(voxel, fan));
+    return lines;
+  }
 
   std::uint16_t of(std::size_t voxel, std::size_t fan) const { return fans_[fan][voxel]; }
   std::uint16_t& of(std::size_t voxel, std::size_t fan) { return fans_[fan][voxel]; }
