@@ -156,7 +156,7 @@ MUTANTS = (
     Mutant("bounce_other_side", "lines end at the far side of a block", "world/light/lattice_lines.cpp",
            "2 * voxel.axis + (forward ? 1 : 0)", "2 * voxel.axis + (forward ? 0 : 1)", "water cave"),
     Mutant("bounce_lamps_lost", "the light of lamps is not reflected", "world/light/bounce_light.cpp",
-           "out.lamps = (*lit)[face.direction];", "{}", "cave_torches cave"),
+           "out.lamps = (*lit)[face.direction];", "out.lamps = 0.0f * (*lit)[face.direction];", "cave_torches cave"),
     # Sky and air
     Mutant("haze_doubled", "twice the haze", "engine/render/sky/sky_model.h", "kClearAir = 0.0005f", "kClearAir = 0.001f",
            "far_view high_altitude"),
