@@ -2,7 +2,7 @@
 
 `old` stands exactly once in `file`; a text that no longer does is an error, so that the list stays
 true. `scenes` are tried first; then all. No mutant may be equivalent: each changes some picture
-that a player can see.
+that a player can see, if `cpu_only` on CPU devices alone: others do not run the pass that it breaks.
 """
 from dataclasses import dataclass
 
@@ -15,6 +15,7 @@ class Mutant:
     old: str
     new: str
     scenes: str = ""
+    cpu_only: bool = False
 
 
 MUTANTS = (
@@ -52,7 +53,7 @@ MUTANTS = (
            "clamp((distance / cascade.radius - 0.8) / 0.2, 0.0, 1.0)", "0.0", "debug_shadow wide_view day"),
     Mutant("shadow_bias_removed", "no bias against rounding", "shaders/include/light/shadow.glsl",
            "cascade.depth_per_block * (0.004 + 0.02 * texel) + 0.016 * (abs(r.slope.x) + abs(r.slope.y))", "0.0",
-           "debug_shadow underneath mesa"),
+           "narrow_view"),
     Mutant("shadow_bias_doubled", "twice the bias and the step off the surface", "shaders/include/light/shadow.glsl",
            "vec3 q = p + normal * (0.5 * texel);", "vec3 q = p + normal * (1.0 * texel);",
            "debug_shadow day overhead"),
@@ -72,11 +73,12 @@ MUTANTS = (
            "0.0 : light_in_air(0u, p) *", "0.0 :", "cave cave_mouth sealed_dark"),
     # Clouds
     Mutant("clouds_cast_nothing", "clouds leave all light to the land", "shaders/include/sky/cloud_light.glsl",
-           "return exp(-cloud_depth(body, p));", "return exp(-1e-6 * cloud_depth(body, p));", "cloud_of_a_file clouds_among_islands"),
+           "return exp(-cloud_depth(body, p));", "return exp(-1e-6 * cloud_depth(body, p));", "thin_cloud clouds_sunset"),
     Mutant("clouds_shade_no_cloud", "no cloud is in a cloud's shadow", "shaders/include/sky/cloud_scattering.glsl",
            "dot(phases, exp(-depth * kTermDepth))", "dot(phases, exp(-1e-6 * depth * kTermDepth))", "clouds_noon clouds_sunset"),
     Mutant("clouds_before_all", "clouds are marched through islands", "shaders/include/sky/cloud_view.glsl",
-           "if (!kTranslucent) return vec2(0.0, surface);", "if (!kTranslucent) return vec2(0.0, kSkyDistance);",
+           "float surface = depth > 0.0 ? view_distance(depth, frame.near_plane) : kSkyDistance;",
+           "float surface = kSkyDistance;",
            "clouds_noon clouds_among_islands"),
     Mutant("cloud_cells_shifted", "bricks are found a cell beside", "shaders/include/sky/cloud_volumes.glsl",
            "first + (known ? cell : ivec3(0))", "first + (known ? cell + ivec3(0, 0, 1) : ivec3(0))", "cloud_of_a_file"),
@@ -119,7 +121,7 @@ MUTANTS = (
            "pattern < static_cast<int>(shared::kSkyPatternCount)",
            "pattern < static_cast<int>(shared::kSkyPatternCount) / 2", "day dusk"),
     Mutant("sky_air_missing", "the sky does not light the air", "shaders/include/surface/haze.glsl",
-           "mix(sky, 1.0, lit * frame.body_in_air)", "lit * frame.body_in_air", "dusk far_view"),
+           "mix(sky, 1.0, lit * frame.body_in_air)", "lit * frame.body_in_air", "underneath"),
     Mutant("weak_lamps_lost", "weak lamps give no light", "game/view/light_chunk.cpp",
            "weak.push_back({light.place / voxel,", "if (level < 0) weak.push_back({light.place / voxel,", "mycelium village_night"),
     # What faces reflect to each other
@@ -139,10 +141,10 @@ MUTANTS = (
     Mutant("key_light_lost", "what is followed from a key direction is not shown", "shaders/include/light/indirect.glsl",
            "if (keyed) sky.bounced +=", "if (false) sky.bounced +=", "water cave_mouth"),
     Mutant("sun_through_leaves", "leaves and plants do not stop the light of a body that is followed",
-           "world/light/body_rays.cpp", "if (air_.has_leaves && stops(", "if (false && stops(", "blossom autumn"),
+           "world/light/body_rays.cpp", "if (air_.has_leaves && stops(", "if (false && stops(", "water"),
     Mutant("bounce_not_turned", "what is reflected has the sun of an island that is not turned",
            "engine/render/sky/sky_irradiance.cpp",
-           "lattice_from_world * bodies_.to_sun", "bodies_.to_sun", "turned_islands"),
+           "lattice_from_world * bodies_.to_sun", "bodies_.to_sun", "narrow_view"),
     Mutant("islands_hide_nothing", "islands hide no sky from each other", "engine/render/sky/island_shade.cpp",
            "if (size == 0.0f) continue;", "if (size >= 0.0f) continue;", "narrow_view"),
     Mutant("weak_lamps_off_faces", "weak lamps light the air before faces instead of them", "world/light/lamp_light.cpp",
@@ -196,7 +198,8 @@ MUTANTS = (
     Mutant("foam_by_own_voxel", "foam goes along all voxels of water", "shaders/include/surface/foam.glsl",
            "least = voxel_opaque(grid, voxel + ivec3(side.x, 0, 0)) ?", "least = true ?", "water water_mirror"),
     Mutant("water_bends_away", "water bends rays away from its normal", "shaders/surface/bend_rays.comp",
-           "refract(normalize(ray), shading, 1.0 / kWaterIndex)", "refract(normalize(ray), shading, kWaterIndex)"),
+           "refract(normalize(ray), shading, 1.0 / kWaterIndex)", "refract(normalize(ray), shading, kWaterIndex)",
+           "water_mirror"),
     Mutant("water_shows_no_window", "an eye in water sees the world above by straight rays",
            "shaders/include/surface/bent.glsl", "refract(dir, shading, kWaterIndex)", "dir", "underwater_up"),
     Mutant("water_as_bright_as_air", "radiance stays the same at the surface of water",
@@ -204,12 +207,12 @@ MUTANTS = (
            "through *= into_water ? 1.0 / (kWaterIndex * kWaterIndex) : kWaterIndex * kWaterIndex;",
            "through *= 1.0;", "water underwater_up"),
     Mutant("water_bends_nothing", "rays go straight through water", "shaders/surface/bend_rays.comp",
-           "bool bends = has_ripples(word)", "bool bends = false"),
+           "bool bends = has_ripples(word)", "bool bends = false", "water_mirror"),
     Mutant("water_takes_no_light", "light goes through water undimmed", "shaders/include/surface/under_water.glsl",
            "vec3 share = exp(-depth.extinction * (depth.blocks / inside))", "vec3 share = vec3(1.0)", "water underwater"),
     Mutant("water_shaded_dry", "tiles that show water are shaded as if they showed none",
            "shaders/scene/classify_lit_tiles.comp", "sunless ? 2u : in_water ? 3u : 0u", "sunless ? 2u : 0u",
-           "water underwater"),
+           "water underwater", cpu_only=True),
     Mutant("water_bends_no_shadow", "shadow under water is asked for on the straight way",
            "shaders/include/surface/lighting.glsl",
            "asked.position = near_surface(depth, s.position, way.to_light);", "", "water water_mirror"),
@@ -220,9 +223,9 @@ MUTANTS = (
     Mutant("glass_beside_glass_ends_not", "where two colours of glass meet the first one goes on",
            "shaders/light/sum_glass.frag", "  if (touched != 0u) begun -= ", "  if (touched == ~0u) begun -= ", "stained_glass"),
     Mutant("glass_lights_glass_white", "the sun comes through stained glass whole to other glass",
-           "shaders/include/surface/water.glsl", "irradiance *= at.depth.through_glass;", "irradiance *= 1.0;", "stained_hall"),
+           "shaders/include/surface/water.glsl", "irradiance *= at.depth.through_glass;", "irradiance *= 1.0;", "stained_glass"),
     Mutant("glass_takes_from_its_lit_side", "a pane takes of the light of its own lit side",
-           "shaders/include/light/glass_lists.glsl", "if (z <= end) break;", "", "stained_hall"),
+           "shaders/include/light/glass_lists.glsl", "if (z <= end) break;", "", "stained_glass"),
     Mutant("glass_tints_no_sky", "the sky comes through stained glass whole", "world/light/glass_tints.cpp",
            "  if (is_clear(depth)) {", "  if (is_clear(depth) || way < LatticeLines::kWays) {", "stained_hall"),
     Mutant("glass_tints_white", "glass dims the light of the sky and leaves it white", "shaders/include/light/indirect.glsl",
@@ -248,7 +251,7 @@ MUTANTS = (
     Mutant("no_waves", "water is flat", "shaders/include/surface/ripples.glsl", "slope *= fading(distance);", "slope *= 0.0;",
            "underwater_up water"),
     Mutant("water_before_everything", "water shows through what is before it", "shaders/surface/write_layer.frag",
-           "if (z <= opaque * kBehind) discard;", "if (z <= opaque - 1.0) discard;", "highland autumn marsh"),
+           "if (z <= opaque * kBehind) discard;", "if (z <= opaque - 1.0) discard;", "stained_glass"),
     Mutant("water_faces_turned", "a water surface's back is taken for its front", "shaders/surface/write_layer.frag",
            "gl_FrontFacing ? in_surface : in_surface ^ kOppositeFace", "in_surface", "underwater_up underwater"),
     Mutant("tail_unseen", "what lies behind the layers of water and glass is not seen", "shaders/include/surface/water.glsl",
@@ -260,7 +263,7 @@ MUTANTS = (
     # Geometry
     Mutant("chunk_culled", "one chunk is never drawn", "shaders/scene/cull.comp",
            "draws_section(views[view], section) ? visible_ranges", "section != 5u && draws_section(views[view], section) ? visible_ranges",
-           "tropical day mesa"),
+           "mycelium"),
     Mutant("culled_too_early", "chunks vanish before they have left the picture", "shaders/scene/cull.comp",
            "+ reach < -1e-3 * (1.0 + reach)", "+ 0.5 * reach < 0.0", "overhead closeup wide_view"),
     Mutant("quad_missing", "one quad of each draw is missing",
@@ -269,7 +272,7 @@ MUTANTS = (
     Mutant("second_diagonal_missing", "plants are one quad instead of two", "shaders/scene/draw_quads.vert",
            "plus ? u : 1.0 - u", "u", "day quality_low"),
     Mutant("growth_removed", "light shines through between merged quads", "shaders/scene/draw_quads.vert",
-           "max(distance, 0.05) * (axis == 1u ? push.level_growth : push.growth)", "max(distance, 0.05) * 0.0", "underneath cave sealed_dark cave_mouth"),
+           "max(distance, 0.05) * (axis == 1u ? push.level_growth : push.growth)", "max(distance, 0.05) * 0.0", "level_seams"),
     Mutant("island_transposed", "islands turn the other way", "shaders/include/frame/common.glsl",
            "return t.axis_x * v.x + t.axis_y * v.y + t.axis_z * v.z;",
            "return vec3(dot(t.axis_x, v), dot(t.axis_y, v), dot(t.axis_z, v));", "turned_islands"),
@@ -286,7 +289,7 @@ MUTANTS = (
            "int left = (leaves + static_cast<int>(mix32(tree_.seed) >> 29)) / 8;",
            "int left = (leaves + static_cast<int>(mix32(tree_.seed) >> 29)) / 64;", "coarse_levels day marsh"),
     Mutant("coarse_crystals_lost", "crystals of far islands do not glow", "world/generate/fill_coarse.cpp",
-           "const int count = area / (kVoxelFaces * edge_ * edge_);", "const int count = 0;", "coarse_levels moonlit"),
+           "const int count = area / (kVoxelFaces * edge_ * edge_);", "const int count = 0;", "mycelium"),
     Mutant("coarse_rock_full", "only coarse voxels that are rock from end to end are solid",
            "world/generate/fill_coarse.cpp",
            "const auto half = static_cast<std::int16_t>(edge_ * edge_ * edge_ / 2);",
@@ -328,7 +331,7 @@ MUTANTS = (
            "kPassedOverDark = 1717986918u", "kPassedOverDark = 3865470566u", "day autumn"),
     Mutant("meter_counts_black", "black pixels are metered as the darkest light", "shaders/post/meter_radiance.comp",
            "if (counts_as_light(y)) atomicAdd(here[bin_of(y)], 1u);",
-           "atomicAdd(here[counts_as_light(y) ? bin_of(y) : 0u], 1u);", "cave_mouth underneath water"),
+           "atomicAdd(here[counts_as_light(y) ? bin_of(y) : 0u], 1u);", "torch_and_crystals"),
     Mutant("bloom_reaches_too_far", "more of the glow goes to the coarse levels", "shaders/shared/bloom.h",
            "kBloomShare = 0.7f", "kBloomShare = 0.9f", "bloom quality_high"),
     Mutant("bloom_takes_all", "everything beside what is too bright glows",
@@ -336,9 +339,10 @@ MUTANTS = (
            "return kFirst ? too_bright(value, push.step.threshold) : value;",
            "return kFirst ? sanitised(value) * exp2(-exposure.ev) : value;", "bloom quality_high"),
     Mutant("bloom_mirrored_weights", "glow is shifted", "shaders/include/post/bloom_columns.glsl",
-           "((x & 1) == 0 ? kTent : kTent.wzyx)", "kTent", "bloom"),
+           "((x & 1) == 0 ? kTent : kTent.wzyx)", "kTent", "bloom", cpu_only=True),
     Mutant("bloom_tile_missing", "tiles whose right or lower half is too bright do not glow",
-           "shaders/post/find_bright_tiles.comp", "ivec2(at * 16u) + 18", "ivec2(at * 16u) + 8", "bloom"),
+           "shaders/post/find_bright_tiles.comp", "ivec2(at * 16u) + 18", "ivec2(at * 16u) + 8", "bloom",
+           cpu_only=True),
     Mutant("dither_missing", "dark gradients band", "shaders/include/post/tonemap.glsl", "(noise - 0.5) / 255.0", "0.0",
            "stars empty"),
     Mutant("tile_missing", "the last tile of each list is not shaded", "shaders/include/scene/tiles.glsl",
