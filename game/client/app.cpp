@@ -28,7 +28,8 @@ constexpr double kBehindScreens = 1.0 / 30.0;  // seconds, the fewest, between f
 constexpr double kMapSpeed = 1.0;              // radii a second
 constexpr double kUnfocusedUntilPause = 0.3;   // seconds
 constexpr double kPatience = 0.5;  // seconds without a picture until it is said what is done
-constexpr double kLoadingFrame = 1.0 / 30.0;  // seconds
+constexpr double kPatienceWithPrograms = 1.5;  // the same, of what a start takes without a GPU
+constexpr double kLoadingFrame = 1.0 / 30.0;   // seconds
 
 ui::Clipboard clipboard_of(platform::Window& window) {
   return {[&window] { return window.clipboard(); },
@@ -332,9 +333,22 @@ Result<bool> App::draw_first_frames(const PlayLoop::Layout& layout) {
     next_s = watch.seconds() + kLoadingFrame;
     shown = true;
   };
+  // What the view's first call of stream() would wait for without a word.
+  const auto make_programs = [&] {
+    const auto all = static_cast<std::uint32_t>(view.renderer().programs_to_come());
+    for (std::uint32_t made = 1; done && view.renderer().make_program(); ++made) {
+      window_.keep_answering();
+      if (watch.seconds() > kPatienceWithPrograms) show_progress(std::min(made, all), all);
+    }
+  };
   const auto draw_one = [&](VkExtent2D size) -> Result<void> {
     const int used = view.renderer().pipelines_created();
     const SceneView::Moment now = world_ ? world_->moment() : backdrop_->moment();
+    if (!shown) {
+      make_programs();
+      next_s = watch.seconds() + kPatience;
+    }
+    if (!done) return done;
     if (auto in = view.stream(now); !in) return in;
     if (shown && !view.complete() && clock_.seconds() < *first_frames_until_s_) {
       // A frame of half of a view would need programs that no later one does.

@@ -23,7 +23,7 @@ std::vector<double> SceneView::nearest_of_levels(const render::Camera& camera,
                                                  const world::IslandSpec& spec) const {
   // A surface is off by a quarter of a voxel's edge in the mean.
   constexpr double kShareOfVoxel = 0.25;
-  const double pixels_a_block_away = 0.5 * static_cast<double>(picture_rows_) *
+  const double pixels_a_block_away = 0.5 * static_cast<double>(size_.height) *
                                      static_cast<double>(settings_.render.render_scale) /
                                      std::tan(0.5 * glm::radians(double{camera.fov_deg}));
   std::vector<double> nearest{0.0};

@@ -39,6 +39,7 @@ constexpr double kForEdits = 1.0 / 16.0;
 // Removed sections are the GPU's for two frames, and the streamer's answer takes one or two.
 constexpr int kFramesToLetGo = 8;
 constexpr double kLessOnRestart = 0.7;
+constexpr int kMostFramesWithoutLight = 60;
 // Of islands that a thread places at a time: a twentieth of a millisecond or so.
 constexpr std::size_t kSlotsAPiece = 512;
 
@@ -101,7 +102,7 @@ SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> 
     : settings_(options.settings),
       cache_(cache),
       world_(std::move(world)),
-      picture_rows_(options.size.height) {
+      size_{options.size.width, options.size.height} {
   const auto asked = static_cast<int>(settings_.jobs_threads);
   jobs_ = std::make_unique<Jobs>(asked != 0 ? asked : threads_beside_frames());
   streamer_ = std::make_unique<world::Streamer>(*world_, *jobs_);
@@ -165,6 +166,10 @@ Result<std::unique_ptr<SceneView>> SceneView::create(gpu::Device& device,
         !ok)
       return ok.error();
   }
+  // Programs of other views are likely to be enough.
+  if (!cache)
+    view->expect_frame({view->start_camera_, static_cast<double>(options.time_of_day_s),
+                        options.settings.world_time_s});
   return view;
 }
 
@@ -203,6 +208,7 @@ Result<void> SceneView::load_completely(const Moment& moment, std::optional<doub
   } while (!waiting_.empty() && show_less(camera));
   renderer_->set_upload_budget(UINT64_MAX);
   choose_levels(camera, world_time_s, {.keep = false, .blend_s = blend_s});
+  expect_frame(moment);
   load_light(moment);
   return {};
 }
@@ -214,6 +220,7 @@ Result<void> SceneView::stream(const Moment& moment, std::optional<double> blend
   if (Result<void> ok = follow_settings(); !ok) return ok;
   renderer_->set_upload_budget(settings_.upload_budget_bytes);
   update_streamer(camera, world_time_s);
+  if (!std::exchange(streams_, true)) begin_to_stream();
   ++frames_since_lowered_;
   // What was taken in must be on the GPU before more is: memory stays bounded, and an island's slot
   // is not handed on while sections that name it can still be drawn.
@@ -229,9 +236,26 @@ Result<void> SceneView::stream(const Moment& moment, std::optional<double> blend
   }
   choose_levels(camera, world_time_s, {.keep = true, .blend_s = blend_s});
   key_fades_.advance([&](const world::IslandLevel& row) { return key_directions_.contains(row); });
+  if (!light_due()) return {};
   find_light(moment, false);
   hand_over_light(moment, settings_.upload_budget_bytes);
   return {};
+}
+
+/// Frames of half of a view, or before there is light of the sky, would need programs that no later
+/// one does.
+void SceneView::begin_to_stream() {
+  if (island_light_ && settings_.render.indirect != render::Indirect::kOff) indirect_store();
+  renderer_->wait_for_programs();
+}
+
+/// Whether threads may look for light. The first pictures of a world would wait for them on few
+/// cores, so that they begin when a frame has shown something of each island, or cannot.
+bool SceneView::light_due() {
+  if (frames_without_light_ >= kMostFramesWithoutLight) return true;
+  ++frames_without_light_;
+  if (streamer_->stats().unshown == 0 || is_full()) frames_without_light_ = kMostFramesWithoutLight;
+  return false;
 }
 
 /// @return false: no less can be shown; what waits is not drawn.
@@ -570,26 +594,13 @@ std::optional<render::BlockMarker> SceneView::marker_of(const Moment& moment) co
                              static_cast<float>(moment.marked->dug)};
 }
 
-Result<std::uint64_t> SceneView::draw(
-    const Moment& moment, VkExtent2D size,
-    const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
-    std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
-  picture_rows_ = size.height;
-  place_islands(moment.world_time_s);
+/// What a frame shows of a world without islands.
+render::FrameInput SceneView::empty_input(const Moment& moment) const {
   render::FrameInput input;
   input.camera = moment.camera;
   input.anchor = fixed(world_->origin());
-  input.islands = placements_;
-  input.reach_blocks = kept_reach(moment.camera.position);
+  input.reach_blocks = settings_.view_distance;
   input.sky = render::celestial_at(moment.time_of_day_s, settings_.moon_phase);
-  const Medium medium = medium_at(moment.camera);
-  input.camera_medium = medium.block;
-  input.medium_surface = medium.surface;
-  gather_lights(moment, size, lights_count_in_the_open(input.camera_medium));
-  input.lights = lights_.lights;
-  input.light_islands = lights_.islands;
-  input.light_reaches = lights_.reaches;
-  input.light_panes = lights_.panes;
   const std::optional<double> ev =
       settings_.exposure_ev ? settings_.exposure_ev : moment.exposure_ev;
   input.exposure_ev.reset();
@@ -600,9 +611,42 @@ Result<std::uint64_t> SceneView::draw(
   input.capture = moment.capture;
   input.may_lag = moment.may_lag;
   input.count_pixels = moment.count_pixels;
-  input.marker = marker_of(moment);
-  const render::RenderSettings& settings = settings_.render;
   input.parts = settings_.shadow_samples;
+  return input;
+}
+
+/// What a frame shows. What it refers to is good until the next call.
+render::FrameInput SceneView::frame_input(const Moment& moment, VkExtent2D size) {
+  place_islands(moment.world_time_s);
+  render::FrameInput input = empty_input(moment);
+  input.islands = placements_;
+  input.reach_blocks = kept_reach(moment.camera.position);
+  const Medium medium = medium_at(moment.camera);
+  input.camera_medium = medium.block;
+  input.medium_surface = medium.surface;
+  gather_lights(moment, size, lights_count_in_the_open(input.camera_medium));
+  input.lights = lights_.lights;
+  input.light_islands = lights_.islands;
+  input.light_reaches = lights_.reaches;
+  input.light_panes = lights_.panes;
+  input.marker = marker_of(moment);
+  return input;
+}
+
+/// Has programs made for what is to be drawn, beside what is done before.
+void SceneView::expect_frame(const Moment& moment) {
+  render::FrameInput input = sections_.empty() ? empty_input(moment) : frame_input(moment, size_);
+  input.part = input.parts - 1;
+  renderer_->expect(input, settings_.render, size_);
+}
+
+Result<std::uint64_t> SceneView::draw(
+    const Moment& moment, VkExtent2D size,
+    const std::function<void(VkCommandBuffer, gpu::Image& picture)>& after,
+    std::span<const VkSemaphoreSubmitInfo> waits, std::span<const VkSemaphoreSubmitInfo> signals) {
+  size_ = size;
+  render::FrameInput input = frame_input(moment, size);
+  const render::RenderSettings& settings = settings_.render;
   for (; input.part + 1 < input.parts; ++input.part)
     if (Result<std::uint64_t> part = renderer_->draw(input, settings, size); !part) return part;
   const Result<std::uint64_t> drawn = renderer_->draw(input, settings, size, after, waits, signals);

@@ -76,7 +76,8 @@ class SceneView {
   /// What memory does not hold is left out, the farthest detail first (notices() says so).
   /// @param blend_s see stream(). Errors: out of memory for a frame's own tables.
   Result<void> load_completely(const Moment& moment, std::optional<double> blend_s = {});
-  /// Takes in what the workers have ready, within the frame's budget; never waits.
+  /// Takes in what the workers have ready, within the frame's budget. Waits for nothing, but the
+  /// first call for the programs that frames are expected to need.
   /// What memory does not hold is left out, the farthest detail first (notices() says so).
   /// @param blend_s seconds since the last call, over which levels of detail change pixel by pixel
   /// (LevelBlends); none: at once. Errors: out of memory for a frame's own tables.
@@ -138,6 +139,8 @@ class SceneView {
   Result<void> restart_with_less(const render::Camera& camera, const std::string& why);
   Result<void> add_section(const world::ReadySection& ready);
   void release_island(const world::IslandLevel& row);
+  void begin_to_stream();
+  bool light_due();
   void load_light(const Moment& moment);
   void find_light(const Moment& moment, bool now);
   IslandLight::NearIslands islands_to_light(const Moment& moment, bool now);
@@ -174,6 +177,9 @@ class SceneView {
   };
   Medium medium_at(const render::Camera& camera) const;
   std::optional<render::BlockMarker> marker_of(const Moment& moment) const;
+  render::FrameInput empty_input(const Moment& moment) const;
+  render::FrameInput frame_input(const Moment& moment, VkExtent2D size);
+  void expect_frame(const Moment& moment);
   double reach(const render::FixedPos& camera) const;
   double kept_reach(const render::FixedPos& camera);
 
@@ -199,12 +205,14 @@ class SceneView {
   std::map<std::uint64_t, Chosen> chosen_;  // by island, since blends_ was last told
   /// By island: sections whose seams are due when its levels have changed.
   std::map<std::uint64_t, std::set<world::SectionKey>> to_close_;
-  std::uint32_t picture_rows_;                       // of the last frame, or as asked for
+  VkExtent2D size_;                                  // of the last frame, or as asked for
   std::vector<render::IslandPlacement> placements_;  // of the last frame, by slot
   std::vector<shared::Quad> quads_by_part_;          // working memory of add_section()
   /// Resident chunks; without a section, what is known of them is which voxels are opaque.
   std::map<world::SectionKey, ResidentSection> sections_;
   std::deque<world::ReadySection> waiting_;  // for memory or the next frame; nearest islands first
+  bool streams_ = false;                     // stream() has been called
+  int frames_without_light_ = 0;             // that stream() was called for
   bool more_next_frame_ = false;             // what waits was enough for one frame
   ViewFit fit_;
   ViewFit::Distances asked_before_;

@@ -56,6 +56,13 @@ const EmbeddedShader& find_shader(std::span<const EmbeddedShader> shaders,
   gpu_fatal("there is no shader '" + name + "' in the program: is it in shaders/?");
 }
 
+std::size_t code_bytes(std::span<const ShaderStage> stages) {
+  std::size_t bytes = 0;
+  for (const ShaderStage& stage : stages)
+    bytes += static_cast<std::size_t>(stage.shader->end - stage.shader->begin);
+  return bytes;
+}
+
 }  // namespace
 
 void make_layout(Device& device, std::span<const ShaderStage> stages, Pipeline& pipeline) {
@@ -120,7 +127,7 @@ void Pipelines::State::begin(const ComputeDesc& desc, Pipeline& pipeline) {
   queue.add(
       pipeline,
       [this, &desc, stage](Pipeline& made) { compile_compute(device, made, stage, desc); },
-      asked_for == AskedFor::kLater);
+      code_bytes({&stage, 1}), asked_for == AskedFor::kLater);
 }
 
 void Pipelines::State::begin(const GraphicsDesc& desc, Pipeline& pipeline) {
@@ -135,7 +142,7 @@ void Pipelines::State::begin(const GraphicsDesc& desc, Pipeline& pipeline) {
   queue.add(
       pipeline,
       [this, &desc, stages](Pipeline& made) { compile_graphics(device, made, stages, desc); },
-      asked_for == AskedFor::kLater);
+      code_bytes(stages), asked_for == AskedFor::kLater);
 }
 
 Pipelines::Pipelines(Device& device, std::span<const EmbeddedShader> shaders)
@@ -186,6 +193,10 @@ int Pipelines::late() const {
 
 std::size_t Pipelines::pending() const {
   return state_->queue.pending();
+}
+
+bool Pipelines::help() {
+  return state_->queue.help();
 }
 
 void Pipelines::wait() const {

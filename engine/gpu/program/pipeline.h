@@ -79,6 +79,7 @@ struct Pipeline {
   friend class PipelineQueue;
   PipelineQueue* queue_ = nullptr;
   std::function<void(Pipeline&)> compile_;
+  std::size_t code_bytes_ = 0;
   bool begun_ = false;  // guarded by the queue
   std::atomic<bool> ready_{false};
 };
@@ -104,7 +105,10 @@ class Pipelines {
   int used() const;
   int late() const;
   std::size_t pending() const;  ///< pipelines that are still to be compiled
-  void wait() const;            ///< until all are compiled
+  /// Compiles one on this thread that frames asked for, or prepare(). @return false: none waits for
+  /// that.
+  bool help();
+  void wait() const;  ///< until all are compiled
 
  private:
   struct State;

@@ -22,9 +22,11 @@ const Pipeline& Pipeline::made() const {
   return *this;
 }
 
-void PipelineQueue::add(Pipeline& pipeline, std::function<void(Pipeline&)> compile, bool last) {
+void PipelineQueue::add(Pipeline& pipeline, std::function<void(Pipeline&)> compile,
+                        std::size_t code_bytes, bool last) {
   pipeline.queue_ = this;
   pipeline.compile_ = std::move(compile);
+  pipeline.code_bytes_ = code_bytes;
   {
     const std::lock_guard lock(mutex_);
     (last ? last_ : first_).push_back(&pipeline);
@@ -41,7 +43,22 @@ void PipelineQueue::finish(Pipeline& pipeline) {
     lock.unlock();
     return compile(pipeline);
   }
-  made_.wait(lock, [&] { return pipeline.ready(); });
+  // What comes next the frame is going to wait for as well.
+  while (!pipeline.ready()) {
+    Pipeline* other = take_next(first_);
+    if (!other) return made_.wait(lock, [&] { return pipeline.ready(); });
+    lock.unlock();
+    compile(*other);
+    lock.lock();
+  }
+}
+
+bool PipelineQueue::help() {
+  std::unique_lock lock(mutex_);
+  Pipeline* pipeline = take_next(first_);
+  lock.unlock();
+  if (pipeline) compile(*pipeline);
+  return pipeline != nullptr;
 }
 
 std::size_t PipelineQueue::pending() const {
@@ -64,7 +81,8 @@ void PipelineQueue::work() {
   for (;;) {
     added_.wait(lock, [this] { return stopping_ || !first_.empty() || !last_.empty(); });
     if (stopping_) return;
-    Pipeline* pipeline = next();
+    Pipeline* pipeline = take_longest(first_);
+    if (!pipeline) pipeline = take_next(last_);
     if (!pipeline) continue;
     lock.unlock();
     compile(*pipeline);
@@ -72,16 +90,24 @@ void PipelineQueue::work() {
   }
 }
 
-/// Takes one that nobody has begun; null: what was waiting has begun. @pre the mutex is held.
-Pipeline* PipelineQueue::next() {
-  for (std::deque<Pipeline*>* waiting : {&first_, &last_}) {
-    while (!waiting->empty()) {
-      Pipeline* pipeline = waiting->front();
-      waiting->pop_front();
-      if (!std::exchange(pipeline->begun_, true)) return pipeline;
-    }
+/// Takes the first that nobody has begun; null: what was waiting has begun. @pre the mutex is held.
+Pipeline* PipelineQueue::take_next(std::deque<Pipeline*>& waiting) {
+  while (!waiting.empty()) {
+    Pipeline* pipeline = waiting.front();
+    waiting.pop_front();
+    if (!std::exchange(pipeline->begun_, true)) return pipeline;
   }
   return nullptr;
+}
+
+Pipeline* PipelineQueue::take_longest(std::deque<Pipeline*>& waiting) {
+  std::erase_if(waiting, [](const Pipeline* pipeline) { return pipeline->begun_; });
+  const auto longest = std::ranges::max_element(waiting, {}, &Pipeline::code_bytes_);
+  if (longest == waiting.end()) return nullptr;
+  Pipeline* pipeline = *longest;
+  waiting.erase(longest);
+  pipeline->begun_ = true;
+  return pipeline;
 }
 
 /// @pre this thread has begun it.

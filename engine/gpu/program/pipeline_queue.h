@@ -20,17 +20,22 @@ class PipelineQueue {
   PipelineQueue& operator=(const PipelineQueue&) = delete;
 
   /// @param pipeline and what `compile` refers to outlive this or its stop().
-  /// @param last after those that are not.
-  void add(Pipeline& pipeline, std::function<void(Pipeline&)> compile, bool last);
+  /// @param code_bytes of its shaders. @param last after those that are not, in the order of these
+  /// calls; of the others workers take the longest first, so that none is left alone in the end.
+  void add(Pipeline& pipeline, std::function<void(Pipeline&)> compile, std::size_t code_bytes,
+           bool last);
   /// See Pipeline::made.
   void finish(Pipeline& pipeline);
+  /// Compiles one on this thread that is not to come last. @return false: none was waiting.
+  bool help();
   std::size_t pending() const;
   /// Ends the workers; what no worker has begun is not compiled.
   void stop();
 
  private:
   void work();
-  Pipeline* next();
+  static Pipeline* take_next(std::deque<Pipeline*>& waiting);
+  static Pipeline* take_longest(std::deque<Pipeline*>& waiting);
   void compile(Pipeline& pipeline);
 
   mutable std::mutex mutex_;

@@ -130,6 +130,21 @@ FrameNeeds frame_needs(const FramePlan& plan, const SceneFacts& facts) {
           .light_kinds = light_kinds(plan.input.lights) | kTorches};
 }
 
+FramePlan expected_plan(const FramePlan& now, const FrameNeeds& needs) {
+  FramePlan plan = common_of(now, needs);
+  plan.marker.reset();
+  plan.why_one_phase = kSupposed;
+  const FrameFeatures& features = now.contents.features;
+  Supposed what{.lights = kTorches, .water = Water::kInView};
+  what.bodies = (now.input.sky.sun_casts ? 1u : 0u) | (now.input.sky.moon_casts ? 2u : 0u);
+  what.stars = features.has(Feature::kStars);
+  what.discs = features.has(Feature::kDiscs);
+  what.clouds = now.clouds && now.clouds->in_view;
+  what.cloud_sky = now.clouds && now.clouds->sky;
+  suppose(plan, needs, what);
+  return plan;
+}
+
 void each_foreseen(const FramePlan& now, const FrameNeeds& needs,
                    const std::function<void(const FramePlan&)>& visit) {
   FramePlan plan = common_of(now, needs);

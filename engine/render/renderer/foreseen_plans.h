@@ -19,6 +19,11 @@ struct FrameNeeds {
 };
 FrameNeeds frame_needs(const FramePlan& plan, const SceneFacts& facts);
 
+/// What a world's first frames are likely to need: their settings and sky are known, and ground
+/// with lamps, cut-out blocks and water is supposed to be in view, as it is where players arrive.
+/// @param now of a frame without geometry.
+FramePlan expected_plan(const FramePlan& now, const FrameNeeds& needs);
+
 /// Calls `visit` with plans of frames to come: the same settings, with each of sun, moon, stars,
 /// water around the eye or in view, lights and cut-out blocks there or not. Together they use every
 /// program, image and buffer that such frames can need. The plans are good for asking for those

@@ -506,6 +506,20 @@ void Renderer::time_passes(bool each) {
 void Renderer::foresee_programs() {
   state_->foresees = true;
 }
+void Renderer::expect(const FrameInput& input, const RenderSettings& settings, VkExtent2D size) {
+  State& s = *state_;
+  SceneFacts facts = s.facts();
+  facts.indirect = true;
+  FramePlan plan = plan_frame({input, settings, size}, facts, s.history);
+  if (!s.check(plan) || !s.make_room(plan)) return;
+  const auto ask = [&](const FramePlan& frame) {
+    gpu::FrameGraph never_drawn(nullptr);
+    LightClusters no_lights(s.device);
+    s.add_never_drawn(frame, no_lights, never_drawn);
+  };
+  s.pipelines.prepare(
+      [&] { ask(plan.geometry ? plan : expected_plan(plan, frame_needs(plan, facts))); });
+}
 bool Renderer::lagged() const {
   return state_->lagged;
 }
@@ -514,6 +528,9 @@ int Renderer::programs_made() const {
 }
 std::size_t Renderer::programs_to_come() const {
   return state_->pipelines.pending();
+}
+bool Renderer::make_program() {
+  return state_->pipelines.help();
 }
 void Renderer::wait_for_programs() {
   state_->pipelines.wait();

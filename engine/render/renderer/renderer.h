@@ -80,6 +80,11 @@ class Renderer {
   /// are, and worker threads make them: docs/frame.md. Until then a frame asks for its own alone. A
   /// frame that may lag is drawn by earlier settings as long as programs for its own are missing.
   void foresee_programs();
+  /// Has worker threads make the programs that a frame will need, so that it waits for fewer. While
+  /// no section is resident some are supposed to be, and what comes otherwise has been made for
+  /// nothing. Light of the sky is supposed to be found by then. Where there is no memory for the
+  /// frame nothing is made: draw() will say so.
+  void expect(const FrameInput& input, const RenderSettings& settings, VkExtent2D size);
   bool lagged() const;  ///< whether the last frame was drawn so
   /// Pipelines that frames have used, and those of them that a frame had to wait for; with shared
   /// ones, frames of all renderers.
@@ -88,6 +93,9 @@ class Renderer {
   /// Pipelines that worker threads have still to make for the frames so far and those foreseen.
   std::size_t programs_to_come() const;
   void wait_for_programs();  ///< until there are none
+  /// Makes one of those that frames wait for or expect on this thread. @return false: none is left
+  /// to begin with.
+  bool make_program();
 
   /// From now on each pass of a frame is submitted by itself and waited for: a driver that compiles
   /// a program at its first use takes seconds for a first frame. @param progress is called before

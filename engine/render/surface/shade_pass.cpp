@@ -230,10 +230,11 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
   if (apart)
     for (auto& some : programs_of(into, TileKind::kDetailed, make(true)))
       sky.push_back(std::move(some));
-  auto smooth = programs_of(into, TileKind::kSmoothSky, [&](bool keep) {
+  const auto make_smooth = [&](bool keep) {
     return gpu::compute(pipelines, programs::kShadeSmoothSky, into.with_output({}, scene, keep));
-  });
-  if (!tiles.smooth_sky) smooth.clear();
+  };
+  decltype(programs_of(into, TileKind::kSmoothSky, make_smooth)) smooth;
+  if (tiles.smooth_sky) smooth = programs_of(into, TileKind::kSmoothSky, make_smooth);
   graph.add_pass(
       "shade_sky",
       [&](gpu::PassBuilder& b) {

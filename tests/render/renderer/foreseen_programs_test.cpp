@@ -63,6 +63,12 @@ class ForeseenPrograms : public RendererOnGpu {
         }
     return out;
   }
+  /// By day, with a lamp by the pond.
+  FrameInput lit() const {
+    FrameInput in = input(kNoon, 0.0);
+    in.lights = lamps_;
+    return in;
+  }
   /// From now on; `names` must outlive the gate. Without shadow maps, of which a body has none
   /// until it shines: by day those of the moon would double their memory.
   void note_allocations(std::vector<std::string>& names) {
@@ -277,6 +283,52 @@ TEST_F(ForeseenPrograms, LeaveThePictureAsItIs) {
   drawn(dull(), {}, kSize);
   drawn(in, {}, kSize);
   EXPECT_EQ(picture(), alone);
+}
+
+TEST_F(ForeseenPrograms, ExpectedOnesAreThereForTheFrame) {
+  ASSERT_TRUE(renderer().indirect());
+  for (const FrameInput& in : {lively().front(), lit()}) {
+    renderer().expect(in, {}, kSize);
+    renderer().wait_for_programs();
+    EXPECT_EQ(drawn(in, {}, kSize).programs_made, 0);
+  }
+}
+
+TEST_F(ForeseenPrograms, ExpectedOnesLeaveThePictureAsItIs) {
+  const FrameInput in = lively().front();
+  ASSERT_TRUE(renderer().indirect());
+  drawn(in, {}, kSize);
+  const std::vector<std::uint8_t> alone = picture();
+  restart();
+  FrameInput empty = in;
+  empty.islands = {};
+  renderer().expect(empty, {}, kSize);
+  begin();
+  ASSERT_TRUE(renderer().indirect());
+  renderer().expect(in, {}, kSize);
+  drawn(in, {}, kSize);
+  EXPECT_EQ(picture(), alone);
+}
+
+TEST_F(ForeseenPrograms, ExpectedOfAnEmptyWorldAreThoseOfOneWithWaterAndLamps) {
+  const FrameInput in = lit();
+  restart();
+  ASSERT_TRUE(renderer().occupancy());
+  FrameInput empty = in;
+  empty.islands = {};
+  renderer().expect(empty, {}, kSize);
+  renderer().wait_for_programs();
+  begin();
+  ASSERT_TRUE(renderer().indirect());
+  EXPECT_EQ(drawn(in, {}, kSize).programs_made, 0);
+}
+
+TEST_F(ForeseenPrograms, NoneAreExpectedWhereThereIsNoMemoryForTheFrame) {
+  device().set_allocation_gate([](const std::string&, std::uint64_t) { return false; });
+  renderer().expect(lively().front(), {}, kSize);
+  device().set_allocation_gate({});
+  EXPECT_EQ(renderer().programs_to_come(), 0u);
+  EXPECT_GT(drawn(lively().front(), {}, kSize).programs_made, 0);
 }
 
 }  // namespace
