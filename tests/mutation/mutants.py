@@ -250,6 +250,8 @@ MUTANTS = (
            "underwater underwater_up"),
     Mutant("no_waves", "water is flat", "shaders/include/surface/ripples.glsl", "slope *= fading(distance);", "slope *= 0.0;",
            "underwater_up water"),
+    Mutant("waves_lost_afar", "water mirrors lights in a point where its waves are too far away to be drawn",
+           "shaders/include/surface/ripples.glsl", "kRippleAlpha2 * (1.0 - left * left)", "0.0 * left", "glitter"),
     Mutant("water_before_everything", "water shows through what is before it", "shaders/surface/write_layer.frag",
            "if (z <= opaque * kBehind) discard;", "if (z <= opaque - 1.0) discard;", "stained_glass"),
     Mutant("water_faces_turned", "a water surface's back is taken for its front", "shaders/surface/write_layer.frag",

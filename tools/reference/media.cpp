@@ -25,6 +25,13 @@ double fading(const Meeting& layer) {
   return std::exp(-0.02 * layer.t);
 }
 
+/// A sine of the lattice, whose period divides an hour. @param slope its largest.
+struct Wave {
+  double x, z, slope;
+};
+constexpr Wave kWaves[] = {
+    {0.83, 0.31, 0.022}, {-0.47, 1.13, 0.018}, {1.91, -1.27, 0.011}, {-2.3, -2.9, 0.007}};
+
 }  // namespace
 
 Medium medium_of(world::BlockId block) {
@@ -47,13 +54,8 @@ bool is_wavy(const Meeting& layer) {
   return world::block_types()[layer.block].liquid && axis_of_face(layer.face) == 1;
 }
 
-/// The gradient of four sines of the lattice, whose periods divide an hour.
+/// The gradient of the waves.
 glm::dvec3 ripples_of(const Meeting& layer, double time_s) {
-  struct Wave {
-    double x, z, slope;
-  };
-  constexpr Wave kWaves[] = {
-      {0.83, 0.31, 0.022}, {-0.47, 1.13, 0.018}, {1.91, -1.27, 0.011}, {-2.3, -2.9, 0.007}};
   double slope_x = 0.0, slope_z = 0.0;
   for (const Wave& wave : kWaves) {
     const double length = std::hypot(wave.x, wave.z);
@@ -64,6 +66,20 @@ glm::dvec3 ripples_of(const Meeting& layer, double time_s) {
     slope_z += wave.z / length * slope;
   }
   return glm::normalize(glm::dvec3(-slope_x, 1.0, -slope_z));
+}
+
+double alpha_of(const Meeting& layer) {
+  constexpr double kLeastRoughness = 0.06;  // of the waves too small to draw
+  // 1.6 times what as many slopes would have that are spread as Gauss says: the lobe of a few sines
+  // is flatter about its middle.
+  constexpr double kOfSlopes = 0.8;
+  const double roughness =
+      std::max<double>(world::block_types()[layer.block].roughness, kLeastRoughness);
+  double alpha2 = std::pow(roughness, 4.0);
+  if (is_wavy(layer))
+    for (const Wave& wave : kWaves)
+      alpha2 += kOfSlopes * wave.slope * wave.slope * (1.0 - fading(layer) * fading(layer));
+  return std::sqrt(alpha2);
 }
 
 double foam_cover(const Tracer& tracer, const Meeting& layer, double time_s) {

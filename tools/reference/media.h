@@ -26,6 +26,11 @@ bool is_wavy(const Meeting& layer);
 /// far ones are smaller than a pixel.
 glm::dvec3 ripples_of(const Meeting& layer, double time_s);
 
+/// Width of the lobe in which a surface of water or glass mirrors lights, as GGX's alpha: the waves
+/// that are too small to draw. Those of ripples_of() that have faded are among them, by the mean
+/// square of their slopes (Olano and Baker 2010, LEAN Mapping).
+double alpha_of(const Meeting& layer);
+
 inline constexpr double kFoamAlbedo = 0.8;
 /// Share of level water that foam covers there, seen from above: along opaque blocks that stand
 /// beside the water's own, and about their corners.

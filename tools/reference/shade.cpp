@@ -673,17 +673,14 @@ glm::dvec3 Shader::mirrored_inside(const Meeting& layer, glm::dvec3 from, glm::d
 void Shader::pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine, Passage& passage,
                           Sampler& sampler) const {
   const glm::dvec3 direction = ray.direction;
-  const world::BlockType& type = world::block_types()[layer.block];
   const glm::dvec3 to_eye = -direction, normal = tracer_.normal(layer.island, layer.face);
   const bool entering = passage.medium != layer.block;
   const bool wavy = is_wavy(layer);
   const glm::dvec3 shading = wavy ? rippled_normal(layer) : normal;
   const double reflected =
       fresnel(std::clamp(glm::dot(shading, to_eye), 0.02, 1.0), !entering, kWaterIndex);
-  constexpr double kLeastRoughness = 0.06;  // of the waves too small to draw
   const glm::dvec3 from = ray.origin + layer.t * direction + normal * kOffSurface;
-  const Reach reached = reach({from, normal}, shading, to_eye,
-                              std::max<double>(type.roughness, kLeastRoughness), sampler);
+  const Reach reached = reach({from, normal}, shading, to_eye, std::sqrt(alpha_of(layer)), sampler);
   // A ripple may turn the ray into the surface's own plane: it is mirrored there again.
   glm::dvec3 mirror = glm::reflect(direction, shading);
   if (glm::dot(mirror, normal) < 0.0) mirror = glm::reflect(mirror, normal);

@@ -18,6 +18,9 @@ vec3 rippled_normal(vec3 lattice, float distance) {
   return normalize(vec3(-slope.x, 1.0, -slope.y));
 }
 
+// What fades widens the lobe instead: alpha^2 of all waves is 0.8 times the sum of their slopes' squares (tests/reference/far_water_test.cpp).
+const float kRippleAlpha2 = 7.82e-4;
+
 // Water that lies level in its lattice.
 bool has_ripples(uint word) { return (surface_face(word) >> 1) == 1u && materials[surface_block(word)].liquid != 0u; }
 
@@ -28,5 +31,11 @@ vec3 shading_normal(uint word, vec3 ray, float t) {
   if (!has_ripples(word)) return world_from_lattice_vector(island, face_normal(face));
   vec3 rippled = rippled_normal(lattice_from_world(island, ray * t), t * length(ray));
   return world_from_lattice_vector(island, rippled) * (face == 2u ? 1.0 : -1.0);
+}
+
+// Of a surface of water or glass, with the waves too small to draw.
+float layer_alpha(uint word, vec3 ray, float t) {
+  float roughness = max(materials[surface_block(word)].roughness, 0.06), left = has_ripples(word) ? fading(t * length(ray)) : 1.0;
+  return sqrt(pow(roughness, 4.0) + kRippleAlpha2 * (1.0 - left * left));
 }
 #endif

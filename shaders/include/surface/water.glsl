@@ -8,11 +8,11 @@
 #include "include/surface/foam.glsl"
 
 // Light mirrored by a wavy surface: GGX lobe of the waves too small to draw. @param irradiance of a surface that faces the light.
-vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, float roughness) {
+vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, float alpha) {
   vec3 sum = to_light + to_eye;
   vec3 h = sum * inversesqrt(max(dot(sum, sum), 1e-12));
   float n_dot_l = max(dot(n, to_light), 0.0);
-  float lobe = mirror_lobe(roughness * roughness, n, h, n_dot_l, max(dot(n, to_eye), 1e-3));
+  float lobe = mirror_lobe(alpha, n, h, n_dot_l, max(dot(n, to_eye), 1e-3));
   return irradiance * (lobe * fresnel(max(dot(h, to_eye), 0.0), false, kWaterIndex) * n_dot_l);
 }
 
@@ -26,7 +26,7 @@ struct LitPoint {       // a point of a surface, or in the open
   vec3 p, n;            // place relative to the camera, normal of the face
   vec3 shading_normal;  // with ripples
   vec3 to_eye;
-  float roughness;
+  float alpha;          // of the lobe about what it mirrors
   uint word;            // of the surface; 0 in the open
   Depth depth;          // under water and behind glass
 };
@@ -45,7 +45,7 @@ void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoi
   vec3 irradiance = body.irradiance * way.share * (visibility * light_through_clouds(index, at.p));
   if (kGlass && index == frame.glass_body) irradiance *= at.depth.through_glass;
   r.light += irradiance * max(n_dot_l, 0.0);
-  r.mirrored += glitter(irradiance, way.to_light, at.shading_normal, at.to_eye, at.roughness);
+  r.mirrored += glitter(irradiance, way.to_light, at.shading_normal, at.to_eye, at.alpha);
   r.any = max(r.any, visibility);
 }
 
@@ -68,12 +68,12 @@ void add_lights(inout Reach r, uvec2 pixel, float z, LitPoint at) {
   vec3 mirror = reflect(-at.to_eye, at.shading_normal);
   for (uint i = 0u; i < list.count; ++i) {
     Light light = frame_light(light_index(list, i));
-    Arrival a = arrive(light, at.p, at.n, mirror, at.roughness * at.roughness);
+    Arrival a = arrive(light, at.p, at.n, mirror, at.alpha);
     if (a.facing <= 0.0) continue;
     vec3 arrives = light.intensity * left_by_panes(light, at.p);
     if (kLightsShadows != 0u) arrives *= traced_visibility(start, light);
     r.light += arrives * a.facing;
-    r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, at.shading_normal, at.to_eye, at.roughness);
+    r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, at.shading_normal, at.to_eye, at.alpha);
   }
 }
 
@@ -159,7 +159,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   if (medium != 0u) {
     const vec3 up = vec3(0.0, 1.0, 0.0);
     Depth depth = behind_glass(depth_in_medium(ray / ray_length * 0.5), kWaterLayers, pixel);
-    light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, 0.1, 0u, depth)).light;
+    light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, 0.01, 0u, depth)).light;
     if (frame.medium_surface != 0u) sky_light = frame.medium_light * sky_about(frame.medium_surface_place, frame.medium_surface).irradiance;
     light_in += sky_light * sky_share(depth);
   }
@@ -195,7 +195,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     float cosine = clamp(dot(shading, to_eye), 0.02, 1.0);
     float reflected = fresnel(cosine, !entering, kWaterIndex);
     vec3 mirror = mirrored_ray(to_eye, shading, n);
-    LitPoint point = LitPoint(ray * t, n, shading, to_eye, max(m.roughness, 0.06), word, behind_glass(no_depth(), k, pixel));
+    LitPoint point = LitPoint(ray * t, n, shading, to_eye, layer_alpha(word, ray, t), word, behind_glass(no_depth(), k, pixel));
     Reach reach = light_at(pixel, t, point);
     FaceSky around = sky_about(point.p, word);
     if (frame.camera_medium == 0u) {
