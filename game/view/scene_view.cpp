@@ -95,6 +95,15 @@ world::LatticeBox box_of_faces(const world::SectionKey& key, const world::ChunkM
   return {corner(mesh.bounds_min), corner(mesh.bounds_max)};
 }
 
+/// What a frame may upload. Its thread copies it, at about a millisecond a MiB, which is to be a
+/// small part of the time that frames take. @param frame_s none: they need not be as long.
+std::uint64_t upload_bytes_of(std::optional<double> frame_s, std::uint64_t most) {
+  constexpr double kASecond = 384.0 * (1u << 20), kLeast = 512.0 * 1024.0;
+  if (!frame_s) return most;
+  const double bytes = std::max(kLeast, *frame_s * kASecond);
+  return bytes < static_cast<double>(most) ? static_cast<std::uint64_t>(bytes) : most;
+}
+
 }  // namespace
 
 SceneView::SceneView(const SceneOptions& options, std::shared_ptr<world::World> world,
@@ -218,7 +227,8 @@ Result<void> SceneView::stream(const Moment& moment, std::optional<double> blend
   const double world_time_s = moment.world_time_s;
   blends_levels_ = blend_s.has_value();
   if (Result<void> ok = follow_settings(); !ok) return ok;
-  renderer_->set_upload_budget(settings_.upload_budget_bytes);
+  const std::uint64_t upload_bytes = upload_bytes_of(blend_s, settings_.upload_budget_bytes);
+  renderer_->set_upload_budget(upload_bytes);
   update_streamer(camera, world_time_s);
   if (!std::exchange(streams_, true)) begin_to_stream();
   ++frames_since_lowered_;
@@ -226,7 +236,7 @@ Result<void> SceneView::stream(const Moment& moment, std::optional<double> blend
   // is not handed on while sections that name it can still be drawn.
   if (renderer_->mesh_uploader().pending_bytes() != 0) return {};
   if (!more_next_frame_) take_in(streamer_->poll(kMaxPolledQuads));
-  add_waiting(settings_.upload_budget_bytes);
+  add_waiting(upload_bytes);
   if (waiting_.empty() && streamer_->complete()) {
     const render::Renderer::WorldMemory memory = renderer_->world_memory();
     fit_.settled(static_cast<double>(memory.used) / static_cast<double>(memory.limit), asked(),
@@ -238,7 +248,7 @@ Result<void> SceneView::stream(const Moment& moment, std::optional<double> blend
   key_fades_.advance([&](const world::IslandLevel& row) { return key_directions_.contains(row); });
   if (!light_due()) return {};
   find_light(moment, false);
-  hand_over_light(moment, settings_.upload_budget_bytes);
+  hand_over_light(moment, upload_bytes);
   return {};
 }
 

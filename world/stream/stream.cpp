@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
-#include <unordered_set>
+#include <unordered_map>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -95,7 +95,7 @@ void Streamer::update(const StreamView& view, const StreamSettings& settings) {
   const std::vector<EditedBox> edits = s.world.take_edits();
   {
     const std::lock_guard lock(s.mutex);
-    if (is_new) s.link_islands(gone);
+    if (is_new) s.drop_left(gone);
     s.place_islands(view, settings, poses, voxels_unused, gone);
     for (const EditedBox& edit : edits) s.apply_edit(edit);
     s.score_tasks();
@@ -143,6 +143,7 @@ bool Streamer::State::look_around(const StreamView& view, const StreamSettings& 
   const double reach = settings.view_distance_blocks * kHysteresis + 2.0 * kMaxIslandDriftBlocks;
   const Look now{view.camera, view.time_s, reach,
                  std::max(64.0, settings.view_distance_blocks / 32.0), world.revision()};
+  const bool same_world = around.look.revision == now.revision;
   std::vector<IslandSpec> specs;
   if (!take_answer(now, specs)) {
     if (around.look.holds_for(now)) {
@@ -164,16 +165,35 @@ bool Streamer::State::look_around(const StreamView& view, const StreamSettings& 
     nearest = around.left_out.islands++ == 0 ? distance : std::min(nearest, distance);
   }
   if (specs.size() > kMaxStreamedIslands) specs.resize(kMaxStreamedIslands);
-  around.islands.clear();
+  replace_candidates(specs, same_world);
   around.fastest = 0.0;
   for (const IslandSpec& spec : specs) {
-    around.islands.push_back({.spec = spec});
     // Its bob is twice as quick as its way around.
     const double speed =
         2.0 * glm::length(spec.drift_amplitude) * 2.0 * std::numbers::pi / spec.drift_period_s;
     if (!poses.is_off_course(spec.id)) around.fastest = std::max(around.fastest, speed);
   }
   return true;
+}
+
+// Most have been there before: they are looked at when they are due, and not all in this frame.
+void Streamer::State::replace_candidates(std::span<const IslandSpec> specs, bool same_world) {
+  std::unordered_map<std::uint64_t, Candidate*> before;
+  before.reserve(around.islands.size());
+  for (Candidate& candidate : around.islands) before.emplace(candidate.spec.id, &candidate);
+  std::vector<Candidate> now;
+  now.reserve(specs.size());
+  for (const IslandSpec& spec : specs) {
+    now.push_back({.spec = spec});
+    const auto found = before.find(spec.id);
+    if (found == before.end()) continue;
+    Candidate& old = *found->second;
+    now.back().island = std::exchange(old.island, nullptr);
+    if (same_world && old.spec.bounding_radius == spec.bounding_radius) now.back().due = old.due;
+  }
+  for (const Candidate& candidate : around.islands)
+    if (candidate.island) around.left.push_back(candidate.island);
+  around.islands = std::move(now);
 }
 
 Streamer::State::Near Streamer::State::near_of(const IslandSpec& spec, const StreamView& view,
@@ -202,18 +222,9 @@ void Streamer::State::drop_island(StreamIsland& island, std::vector<std::uint64_
   islands.erase(id);
 }
 
-// Finds those that are in among what is around; what is not there goes.
-void Streamer::State::link_islands(std::vector<std::uint64_t>& gone) {
-  std::unordered_set<std::uint64_t> kept;
-  for (Candidate& candidate : around.islands) {
-    kept.insert(candidate.spec.id);
-    const auto found = islands.find(candidate.spec.id);
-    if (found != islands.end()) candidate.island = &found->second;
-  }
-  for (auto entry = islands.begin(); entry != islands.end();) {
-    StreamIsland& island = entry++->second;
-    if (!kept.contains(island.spec.id)) drop_island(island, gone);
-  }
+// Those that are in and not around any more.
+void Streamer::State::drop_left(std::vector<std::uint64_t>& gone) {
+  for (StreamIsland* island : std::exchange(around.left, {})) drop_island(*island, gone);
 }
 
 namespace {

@@ -128,6 +128,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
                    const IslandPoses& poses);
   bool take_answer(const Look& now, std::vector<IslandSpec>& specs);
   std::vector<IslandSpec> ask(const Look& look) const;
+  void replace_candidates(std::span<const IslandSpec> specs, bool same_world);
   static Near near_of(const IslandSpec& spec, const StreamView& view, const IslandPoses& poses);
 
   // What is wanted (stream.cpp). Called with the mutex held.
@@ -136,7 +137,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
                      const IslandPoses& poses, std::vector<std::uint64_t>& voxels_unused,
                      std::vector<std::uint64_t>& gone);
   void drop_island(StreamIsland& island, std::vector<std::uint64_t>& gone);
-  void link_islands(std::vector<std::uint64_t>& gone);
+  void drop_left(std::vector<std::uint64_t>& gone);
   void place_island(Candidate& candidate, const Near& near, const StreamView& view,
                     const StreamSettings& settings, std::vector<std::uint64_t>& voxels_unused);
   int level_of(const IslandSpec& spec, int level) const;
@@ -181,6 +182,7 @@ struct Streamer::State : std::enable_shared_from_this<Streamer::State> {
     bool asked_ahead = false;  // a worker has been asked for the next answer
     std::size_t asked = 0;     // times that update() has asked the world itself
     std::vector<Candidate> islands;
+    std::vector<StreamIsland*> left;  // in, but not among `islands` any more
     LeftOut left_out;
     double fastest = 0.0;    // an island on its course, blocks/s at most
     double travelled = 0.0;  // blocks by which camera and any island have come nearer, at most
