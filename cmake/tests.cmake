@@ -109,7 +109,7 @@ if(SKERRY_OPENVDB)
 endif()
 add_test(NAME image.same_bytes COMMAND ${CMAKE_SOURCE_DIR}/tests/image/same_bytes_test.py
   $<TARGET_FILE:skerry> ${CMAKE_BINARY_DIR}/image/same_bytes)
-set_tests_properties(image.same_bytes PROPERTIES TIMEOUT 300)
+set_tests_properties(image.same_bytes PROPERTIES TIMEOUT 900)
 
 # The package, made and unpacked.
 add_test(NAME package.deb COMMAND ${CMAKE_SOURCE_DIR}/tests/package/package_test.sh ${CMAKE_BINARY_DIR})
