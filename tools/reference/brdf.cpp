@@ -51,6 +51,20 @@ double mirror_lobe(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye, do
   return lossless * fresnel(glm::dot(half, to_eye), false, index);
 }
 
+double wave_lobe(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye, double alpha,
+                 double index) {
+  const double n_dot_l = glm::dot(normal, to_light), n_dot_v = glm::dot(normal, to_eye);
+  if (n_dot_l <= 0.0 || n_dot_v <= 0.0) return 0.0;
+  const glm::dvec3 half = glm::normalize(to_light + to_eye);
+  const double cosine2 = std::pow(glm::dot(normal, half), 2.0), alpha2 = alpha * alpha;
+  const glm::dvec3 across = glm::cross(normal, half);
+  const double slope2 = glm::dot(across, across) / cosine2;
+  const double distribution = 2.0 / (std::pow(kPi, 1.5) * alpha2 * cosine2 * cosine2) *
+                              std::exp(-std::pow(slope2 / alpha2, 2.0));
+  return distribution * smith(n_dot_l, 0.5 * alpha) * smith(n_dot_v, 0.5 * alpha) * 0.25 *
+         fresnel(glm::dot(half, to_eye), false, index);
+}
+
 glm::dvec3 surface_brdf(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye,
                         glm::dvec3 albedo, double roughness, double metalness) {
   constexpr double kFromAbove = 0.04, kLeastRoughness = 0.06;

@@ -23,6 +23,11 @@ double mirror_lobe(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye, do
 double mirror_lobe_lossless(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye,
                             double roughness);
 
+/// The lobe of waves, whose slopes end where those of GGX do not: of slopes s by exp(-(s/alpha)^4),
+/// flat in its middle and without a tail; else as mirror_lobe().
+double wave_lobe(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye, double alpha,
+                 double index);
+
 /// What an opaque surface reflects of a light [1/sr]: a Cook-Torrance lobe, and a diffuse part that
 /// gets what the lobe leaves. Reflectance from above is 0.04, a metal's is its albedo; after
 /// Schlick it grows to 1 for grazing light. The diffuse part loses, once for the way in and once

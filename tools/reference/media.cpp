@@ -68,18 +68,17 @@ glm::dvec3 ripples_of(const Meeting& layer, double time_s) {
   return glm::normalize(glm::dvec3(-slope_x, 1.0, -slope_z));
 }
 
-double alpha_of(const Meeting& layer) {
+Gloss gloss_of(const Meeting& layer) {
   constexpr double kLeastRoughness = 0.06;  // of the waves too small to draw
-  // 1.6 times what as many slopes would have that are spread as Gauss says: the lobe of a few sines
-  // is flatter about its middle.
-  constexpr double kOfSlopes = 0.8;
   const double roughness =
       std::max<double>(world::block_types()[layer.block].roughness, kLeastRoughness);
-  double alpha2 = std::pow(roughness, 4.0);
+  const double drawn = std::pow(roughness, 4.0);
+  double faded = 0.0;
   if (is_wavy(layer))
     for (const Wave& wave : kWaves)
-      alpha2 += kOfSlopes * wave.slope * wave.slope * (1.0 - fading(layer) * fading(layer));
-  return std::sqrt(alpha2);
+      faded += std::sqrt(std::numbers::pi) * 0.5 * wave.slope * wave.slope *
+               (1.0 - fading(layer) * fading(layer));
+  return {std::sqrt(drawn + faded), faded / (drawn + faded)};
 }
 
 double foam_cover(const Tracer& tracer, const Meeting& layer, double time_s) {

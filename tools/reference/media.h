@@ -26,10 +26,14 @@ bool is_wavy(const Meeting& layer);
 /// far ones are smaller than a pixel.
 glm::dvec3 ripples_of(const Meeting& layer, double time_s);
 
-/// Width of the lobe in which a surface of water or glass mirrors lights, as GGX's alpha: the waves
-/// that are too small to draw. Those of ripples_of() that have faded are among them, by the mean
-/// square of their slopes (Olano and Baker 2010, LEAN Mapping).
-double alpha_of(const Meeting& layer);
+/// How a surface of water or glass mirrors lights. @param alpha of its lobe. @param waves share of
+/// it that is wave_lobe(), the rest is mirror_lobe().
+struct Gloss {
+  double alpha = 0.0, waves = 0.0;
+};
+/// Of the waves that are too small to draw. Those of ripples_of() that have faded are among them,
+/// by the mean square of their slopes (Olano and Baker 2010, LEAN Mapping).
+Gloss gloss_of(const Meeting& layer);
 
 inline constexpr double kFoamAlbedo = 0.8;
 /// Share of level water that foam covers there, seen from above: along opaque blocks that stand

@@ -590,14 +590,17 @@ struct Shader::Passage {
 };
 
 Shader::Reach Shader::reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye,
-                            double roughness, Sampler& sampler) const {
+                            const Gloss& gloss, Sampler& sampler) const {
   Reach reach;
   reach.light = kPi * from_around(at, scene_.bounces, sampler).radiance;
   arrive(at, sampler, [&](const Arrival& light) {
     reach.light += light.irradiance * glm::dot(at.normal, light.to_light);
-    reach.mirrored += light.irradiance *
-                      (mirror_lobe(shading_normal, light.to_light, to_eye, roughness, kWaterIndex) *
-                       std::max(0.0, glm::dot(shading_normal, light.to_light)));
+    const double lobe =
+        (1.0 - gloss.waves) * mirror_lobe(shading_normal, light.to_light, to_eye,
+                                          std::sqrt(gloss.alpha), kWaterIndex) +
+        gloss.waves * wave_lobe(shading_normal, light.to_light, to_eye, gloss.alpha, kWaterIndex);
+    reach.mirrored +=
+        light.irradiance * (lobe * std::max(0.0, glm::dot(shading_normal, light.to_light)));
   });
   return reach;
 }
@@ -680,7 +683,7 @@ void Shader::pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine,
   const double reflected =
       fresnel(std::clamp(glm::dot(shading, to_eye), 0.02, 1.0), !entering, kWaterIndex);
   const glm::dvec3 from = ray.origin + layer.t * direction + normal * kOffSurface;
-  const Reach reached = reach({from, normal}, shading, to_eye, std::sqrt(alpha_of(layer)), sampler);
+  const Reach reached = reach({from, normal}, shading, to_eye, gloss_of(layer), sampler);
   // A ripple may turn the ray into the surface's own plane: it is mirrored there again.
   glm::dvec3 mirror = glm::reflect(direction, shading);
   if (glm::dot(mirror, normal) < 0.0) mirror = glm::reflect(mirror, normal);

@@ -2,6 +2,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "tools/reference/media.h"
 #include "tools/reference/sampler.h"
 #include "tools/reference/scene.h"
 #include "tools/reference/tracer.h"
@@ -108,7 +109,7 @@ class Shader {
   bool bends(const Trace& trace) const;
   void pass_surface(const Meeting& layer, const Ray& ray, glm::dvec3 fine, Passage& passage,
                     Sampler& sampler) const;
-  Reach reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye, double roughness,
+  Reach reach(const Receiver& at, glm::dvec3 shading_normal, glm::dvec3 to_eye, const Gloss& gloss,
               Sampler& sampler) const;
   glm::dvec3 rippled_normal(const Meeting& layer) const;
 

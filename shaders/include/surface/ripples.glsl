@@ -18,8 +18,13 @@ vec3 rippled_normal(vec3 lattice, float distance) {
   return normalize(vec3(-slope.x, 1.0, -slope.y));
 }
 
-// What fades widens the lobe instead: alpha^2 of all waves is 0.8 times the sum of their slopes' squares (tests/reference/far_water_test.cpp).
-const float kRippleAlpha2 = 7.82e-4;
+// How a surface of water or glass mirrors lights.
+struct Gloss {
+  float alpha;  // of its lobe
+  float waves;  // share of the lobe that is that of waves which have faded
+};
+// Of all waves: alpha^2 of a lobe whose slopes have their mean square, sqrt(pi) times half the sum of these slopes' squares.
+const float kRippleAlpha2 = 8.67e-4;
 
 // Water that lies level in its lattice.
 bool has_ripples(uint word) { return (surface_face(word) >> 1) == 1u && materials[surface_block(word)].liquid != 0u; }
@@ -33,9 +38,9 @@ vec3 shading_normal(uint word, vec3 ray, float t) {
   return world_from_lattice_vector(island, rippled) * (face == 2u ? 1.0 : -1.0);
 }
 
-// Of a surface of water or glass, with the waves too small to draw.
-float layer_alpha(uint word, vec3 ray, float t) {
+Gloss gloss_of(uint word, vec3 ray, float t) {
   float roughness = max(materials[surface_block(word)].roughness, 0.06), left = has_ripples(word) ? fading(t * length(ray)) : 1.0;
-  return sqrt(pow(roughness, 4.0) + kRippleAlpha2 * (1.0 - left * left));
+  float drawn = pow(roughness, 4.0), faded = kRippleAlpha2 * (1.0 - left * left);
+  return Gloss(sqrt(drawn + faded), faded / (drawn + faded));
 }
 #endif

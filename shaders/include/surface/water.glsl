@@ -7,12 +7,22 @@
 #include "include/surface/mirror.glsl"
 #include "include/surface/foam.glsl"
 
-// Light mirrored by a wavy surface: GGX lobe of the waves too small to draw. @param irradiance of a surface that faces the light.
-vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, float alpha) {
+// Lobe of waves, whose slopes end where GGX's do not: of slopes s by exp(-(s / alpha)^4). Else as mirror_lobe(). The first number: pi^-1.5 / 2.
+float wave_lobe(float alpha, vec3 normal, vec3 half_way, float n_dot_l, float n_dot_v) {
+  float alpha2 = alpha * alpha, n_dot_h = max(dot(normal, half_way), 1e-3), cos2 = n_dot_h * n_dot_h, k = 0.5 * alpha;
+  vec3 across = cross(normal, half_way);
+  float slope2 = dot(across, across) / (cos2 * alpha2);
+  float shadowing = (n_dot_l * (1.0 - k) + k) * (n_dot_v * (1.0 - k) + k);
+  return 0.0897936 * exp(-slope2 * slope2) / (alpha2 * cos2 * cos2 * shadowing);
+}
+
+// Light mirrored by a wavy surface, by the waves too small to draw. @param irradiance of a surface that faces the light.
+vec3 glitter(vec3 irradiance, vec3 to_light, vec3 n, vec3 to_eye, Gloss gloss) {
   vec3 sum = to_light + to_eye;
   vec3 h = sum * inversesqrt(max(dot(sum, sum), 1e-12));
   float n_dot_l = max(dot(n, to_light), 0.0);
-  float lobe = mirror_lobe(alpha, n, h, n_dot_l, max(dot(n, to_eye), 1e-3));
+  float n_dot_v = max(dot(n, to_eye), 1e-3);
+  float lobe = mix(mirror_lobe(gloss.alpha, n, h, n_dot_l, n_dot_v), wave_lobe(gloss.alpha, n, h, n_dot_l, n_dot_v), gloss.waves);
   return irradiance * (lobe * fresnel(max(dot(h, to_eye), 0.0), false, kWaterIndex) * n_dot_l);
 }
 
@@ -26,7 +36,7 @@ struct LitPoint {       // a point of a surface, or in the open
   vec3 p, n;            // place relative to the camera, normal of the face
   vec3 shading_normal;  // with ripples
   vec3 to_eye;
-  float alpha;          // of the lobe about what it mirrors
+  Gloss gloss;
   uint word;            // of the surface; 0 in the open
   Depth depth;          // under water and behind glass
 };
@@ -45,7 +55,7 @@ void add_light(inout Reach r, const uint index, const uint first_cascade, LitPoi
   vec3 irradiance = body.irradiance * way.share * (visibility * light_through_clouds(index, at.p));
   if (kGlass && index == frame.glass_body) irradiance *= at.depth.through_glass;
   r.light += irradiance * max(n_dot_l, 0.0);
-  r.mirrored += glitter(irradiance, way.to_light, at.shading_normal, at.to_eye, at.alpha);
+  r.mirrored += glitter(irradiance, way.to_light, at.shading_normal, at.to_eye, at.gloss);
   r.any = max(r.any, visibility);
 }
 
@@ -68,12 +78,12 @@ void add_lights(inout Reach r, uvec2 pixel, float z, LitPoint at) {
   vec3 mirror = reflect(-at.to_eye, at.shading_normal);
   for (uint i = 0u; i < list.count; ++i) {
     Light light = frame_light(light_index(list, i));
-    Arrival a = arrive(light, at.p, at.n, mirror, at.alpha);
+    Arrival a = arrive(light, at.p, at.n, mirror, at.gloss.alpha);
     if (a.facing <= 0.0) continue;
     vec3 arrives = light.intensity * left_by_panes(light, at.p);
     if (kLightsShadows != 0u) arrives *= traced_visibility(start, light);
     r.light += arrives * a.facing;
-    r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, at.shading_normal, at.to_eye, at.alpha);
+    r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, at.shading_normal, at.to_eye, at.gloss);
   }
 }
 
@@ -98,7 +108,7 @@ Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye, vec3 outwards) 
   float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
   vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
   vec3 dir = mirrored_ray(to_eye, shading_normal(word, ray, t), n);
-  LitPoint at = LitPoint(ray * t, n, n, to_eye, 1.0, word, no_depth());
+  LitPoint at = LitPoint(ray * t, n, n, to_eye, Gloss(1.0, 0.0), word, no_depth());
   if (kBent == kBentIntoAir && outwards != vec3(0.0)) {
     dir = outwards;
     at.n = -n;
@@ -159,7 +169,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   if (medium != 0u) {
     const vec3 up = vec3(0.0, 1.0, 0.0);
     Depth depth = behind_glass(depth_in_medium(ray / ray_length * 0.5), kWaterLayers, pixel);
-    light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, 0.01, 0u, depth)).light;
+    light_in = light_at(pixel, 0.5 / ray_length, LitPoint(ray / ray_length * 0.5, up, up, to_eye, Gloss(0.01, 0.0), 0u, depth)).light;
     if (frame.medium_surface != 0u) sky_light = frame.medium_light * sky_about(frame.medium_surface_place, frame.medium_surface).irradiance;
     light_in += sky_light * sky_share(depth);
   }
@@ -195,7 +205,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     float cosine = clamp(dot(shading, to_eye), 0.02, 1.0);
     float reflected = fresnel(cosine, !entering, kWaterIndex);
     vec3 mirror = mirrored_ray(to_eye, shading, n);
-    LitPoint point = LitPoint(ray * t, n, shading, to_eye, layer_alpha(word, ray, t), word, behind_glass(no_depth(), k, pixel));
+    LitPoint point = LitPoint(ray * t, n, shading, to_eye, gloss_of(word, ray, t), word, behind_glass(no_depth(), k, pixel));
     Reach reach = light_at(pixel, t, point);
     FaceSky around = sky_about(point.p, word);
     if (frame.camera_medium == 0u) {
