@@ -16,6 +16,11 @@ double smith(double cosine, double k) {
   return 1.0 / (cosine * (1.0 - k) + k);
 }
 
+/// Of a lobe whose normals are spread by `distribution`: the rest of it, without Fresnel's factor.
+double lobe_of(double distribution, double n_dot_l, double n_dot_v, double alpha) {
+  return distribution * smith(n_dot_l, 0.5 * alpha) * smith(n_dot_v, 0.5 * alpha) * 0.25;
+}
+
 }  // namespace
 
 double fresnel(double cosine, bool leaving, double index) {
@@ -40,7 +45,7 @@ double mirror_lobe_lossless(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 t
   const glm::dvec3 across = glm::cross(normal, half);
   const double spread = n_dot_h * n_dot_h * alpha2 + glm::dot(across, across);
   const double distribution = alpha2 / (kPi * spread * spread);
-  return distribution * smith(n_dot_l, 0.5 * alpha) * smith(n_dot_v, 0.5 * alpha) * 0.25;
+  return lobe_of(distribution, n_dot_l, n_dot_v, alpha);
 }
 
 double mirror_lobe(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye, double roughness,
@@ -61,7 +66,7 @@ double wave_lobe(glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye, doub
   const double slope2 = glm::dot(across, across) / cosine2;
   const double distribution = 2.0 / (std::pow(kPi, 1.5) * alpha2 * cosine2 * cosine2) *
                               std::exp(-std::pow(slope2 / alpha2, 2.0));
-  return distribution * smith(n_dot_l, 0.5 * alpha) * smith(n_dot_v, 0.5 * alpha) * 0.25 *
+  return lobe_of(distribution, n_dot_l, n_dot_v, alpha) *
          fresnel(glm::dot(half, to_eye), false, index);
 }
 
