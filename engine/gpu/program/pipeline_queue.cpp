@@ -43,14 +43,12 @@ void PipelineQueue::finish(Pipeline& pipeline) {
     lock.unlock();
     return compile(pipeline);
   }
+  lock.unlock();
   // What comes next the frame is going to wait for as well.
-  while (!pipeline.ready()) {
-    Pipeline* other = take_next(first_);
-    if (!other) return made_.wait(lock, [&] { return pipeline.ready(); });
-    lock.unlock();
-    compile(*other);
-    lock.lock();
+  while (!pipeline.ready() && help()) {
   }
+  lock.lock();
+  made_.wait(lock, [&] { return pipeline.ready(); });
 }
 
 bool PipelineQueue::help() {
