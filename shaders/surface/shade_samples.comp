@@ -66,7 +66,8 @@ mat2x3 body_sent(Surface s, Depth depth, BrdfPair b, vec3 to_eye, const uint ind
                 arriving * brdf(b.white, s.normal, to_eye, light.to_light, facing));
 }
 
-mat2x3 light_sent(Surface s, Depth depth, uint word, uvec2 pixel, float z, bool here) {
+// @param around irradiance of the sky and of what stays on surfaces.
+mat2x3 light_sent(Surface s, Depth depth, uint word, uvec2 pixel, float z, bool here, vec3 around) {
   vec3 to_eye = -normalize(s.position);
   BrdfPair b = surface_brdf_pair(s, to_eye);
   mat2x3 sent = mat2x3(0.0);
@@ -77,7 +78,7 @@ mat2x3 light_sent(Surface s, Depth depth, uint word, uvec2 pixel, float z, bool 
     if (!here) list.count = 0u;
     sent += lights_reflected(list, kNoShafts, b, way_start(s, word), to_eye);
   }
-  return sent * s.ao;
+  return sent * s.ao + mat2x3(around * brdf_around(b.black), around * brdf_around(b.white));
 }
 
 void main() {
@@ -93,11 +94,11 @@ void main() {
   Surface s = surface_without_texture(word, ivec2(pixel), depth, ray);
   s.ao = surface_ao(s, word);
   Depth depth_in_water = depth_of_pixel(pixel, word, s.position);
-  mat2x3 sent = light_sent(s, depth_in_water, word, pixel, z, here);
   SkyLight sky = light_of_sky(s, word, sky_share(depth_in_water) * lit_again(depth_in_water));
+  mat2x3 sent = light_sent(s, depth_in_water, word, pixel, z, here, sky.irradiance);
   // What emits in part has no samples that others take: of those any albedo does.
   vec3 albedo = kEveryPixel ? surface_texel(word, ray, z, kTextureTaps).rgb : vec3(1.0);
-  sent[1] += kInvPi * sky.irradiance + emission_of(word, albedo);
+  sent[1] += emission_of(word, albedo);
   vec3 air = seen_through_air(vec3(0.0), s.position, sky.seen);
   sent = sent * clear_air(s.position) + mat2x3(air, air);
   if (!kEveryPixel) count_non_finite(here && !(finite3(sent[0]) && finite3(sent[1])));

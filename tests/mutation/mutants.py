@@ -27,6 +27,8 @@ MUTANTS = (
            "axis == 2u ? s : 0.0", "axis == 2u ? -s : 0.0", "debug_normal day"),
     Mutant("flat_shading_ignored", "flat shading shades by angle", "shaders/include/surface/lighting.glsl",
            "frame.shading_flat != 0u ? 1.0 : light.n_dot_l", "light.n_dot_l", "flat_shading"),
+    Mutant("around_not_mirrored", "the sky and what faces reflect are not mirrored", "shaders/include/light/brdf.glsl",
+           "(1.0 / 21.0)) + lobe;", "(1.0 / 21.0));", "day dusk"),
     Mutant("emission_lost", "nothing glows", "shaders/include/surface/surface.glsl",
            "return emission.x * clamp", "return 0.0 * clamp", "lava_night cave"),
     Mutant("all_of_it_glows", "sticks of torches and dark facets of crystals glow", "shaders/include/surface/surface.glsl",

@@ -28,7 +28,7 @@ struct Brdf {
   vec3 diffuse;     // of the half of it that depends on the eye
   vec3 mirror;      // reflectance from above; 0: there is no lobe
   float taken;      // what the lobe takes of light from above, and how much more of grazing light:
-  float taken_more; // by Schlick's curve, so that diffuse and lobe together never exceed 1 (tests/render/brdf_test.cpp)
+  float taken_more; // by Schlick's curve, so that diffuse and lobe together never exceed 1 (tests/render/light/light_formulas_test.cpp)
   float alpha;
   float n_dot_v;
 };
@@ -61,6 +61,16 @@ vec3 brdf_mirror(Brdf b, vec3 normal, vec3 to_eye, vec3 to_light, float n_dot_l)
   vec3 f = b.mirror + (1.0 - b.mirror) * fifth(1.0 - clamp(dot(h, to_eye), 0.0, 1.0));
   float lobe = mirror_lobe(b.alpha, normal, h, n_dot_l, b.n_dot_v);
   return b.mirror == vec3(0.0) ? vec3(0.0) : f * lobe;
+}
+
+// Share of the irradiance of even light from all sides that goes to the eye [1/sr]: brdf() averaged over the half space by the cosine. Of the
+// lobe a fit, right to .1 of its mirror and, of what is rougher than .5, to .04 beyond it.
+vec3 brdf_around(Brdf b) {
+  float grazing = fifth(1.0 - b.n_dot_v), smoothness = 1.0 - sqrt(b.alpha);
+  float above = 0.564 + 0.038 * b.alpha + b.n_dot_v * (0.531 - 0.908 * b.alpha);
+  float beyond = smoothness * smoothness * grazing * (1.33 - 0.74 * grazing);
+  vec3 lobe = b.mirror == vec3(0.0) ? vec3(0.0) : kInvPi * (b.mirror * above + beyond);
+  return b.diffuse * (1.0 - b.taken - b.taken_more * (1.0 / 21.0)) + lobe;
 }
 
 // Share of a directional light's irradiance that goes to the eye [1/sr]. @param n_dot_l cosine to the light, not negative.

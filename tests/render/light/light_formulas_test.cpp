@@ -28,7 +28,7 @@ struct Query {
   glm::vec3 albedo{1.0f};
   float roughness = 1.0f, metalness = 0.0f;
 };
-enum class Ask : std::uint32_t { kReflectance, kReflected, kReceived };
+enum class Ask : std::uint32_t { kReflectance, kReflected, kReceived, kAround };
 
 constexpr const char* kFormulas =
     "#include \"include/light/lights.glsl\"\n"
@@ -46,7 +46,8 @@ void main() {
   Brdf b = brdf_of(q.albedo, q.roughness, q.metalness, dot(q.normal, q.to_eye));
   results[i] = push.ask == 0u ? brdf(b, q.normal, q.to_eye, q.at, max(dot(q.normal, q.at), 0.0))
              : push.ask == 1u ? light_reflected(light, b, q.at, q.normal, q.to_eye)
-                              : light_received(light, q.at, q.normal);
+           : push.ask == 2u ? light_received(light, q.at, q.normal)
+                            : brdf_around(b);
 })";
 
 class LightFormulas : public gpu::GpuTest {
@@ -174,6 +175,33 @@ TEST_F(LightFormulas, AWhiteSurfaceNeverSendsMoreThanItReceives) {
         EXPECT_LE(sum, 1.0 + 2e-3) << metalness << " " << roughness << " " << cosine;
         EXPECT_GT(sum, metalness == 0.0f ? 0.65 : 0.3)
             << metalness << " " << roughness << " " << cosine;
+      }
+    }
+  }
+}
+
+TEST_F(LightFormulas, EvenLightIsReflectedAsTheIntegralOverTheHalfSpaceHasIt) {
+  for (const float metalness : {0.0f, 0.5f, 1.0f}) {
+    for (const float roughness : {0.15f, 0.3f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1.0f}) {
+      for (const double cosine : {0.05, 0.1, 0.2, 0.4, 0.7, 1.0}) {
+        Query base;
+        base.albedo = {0.0f, 0.1f, 0.8f};
+        base.to_eye = tilted(cosine);
+        base.roughness = roughness;
+        base.metalness = metalness;
+        const Samples samples = samples_for(base);
+        const std::vector<glm::dvec3> share = asked(Ask::kReflectance, samples.queries);
+        glm::dvec3 sum(0.0);
+        for (std::size_t i = 0; i < share.size(); ++i) sum += share[i] * samples.weight[i];
+        const glm::dvec3 fit = kPi * asked(Ask::kAround, {base})[0];
+        const std::string where = std::to_string(metalness) + " " + std::to_string(roughness) +
+                                  " " + std::to_string(cosine);
+        for (int i = 0; i < 3; ++i) {
+          const double mirror = 0.04 + (base.albedo[i] - 0.04) * metalness;
+          const double most =
+              (roughness < 0.5f ? 0.1 : 0.035) + (roughness < 0.5f ? 0.4 : 0.1) * mirror;
+          EXPECT_NEAR(fit[i], sum[i], most) << where << " albedo " << base.albedo[i];
+        }
       }
     }
   }
