@@ -84,7 +84,7 @@ function(window_test name)
   add_test(NAME window.${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/window/${name}_test.sh $<TARGET_FILE:skerry> ${ARGN})
   set_tests_properties(window.${name} PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 RESOURCE_LOCK window COST 1000)
 endfunction()
-foreach(name play screens dig view loading map end frames)
+foreach(name play screens dig view loading map end frames quality)
   window_test(${name})
 endforeach()
 set_tests_properties(window.frames PROPERTIES RUN_SERIAL TRUE)  # it compares what the processor does with and without the focus
@@ -158,6 +158,6 @@ set(driver_cache "$ENV{XDG_CACHE_HOME}")
 if(NOT driver_cache)
   set(driver_cache "$ENV{HOME}/.cache")
 endif()
-set_tests_properties(window.play window.screens window.dig window.view window.map window.end window.frames window.pad package.deb
+set_tests_properties(window.play window.screens window.dig window.view window.map window.end window.frames window.quality window.pad package.deb
   tools.commands tools.farm tools.slurm tools.decisions tools.decisions_browser tools.examples
   PROPERTIES ENVIRONMENT "MESA_SHADER_CACHE_DIR=${driver_cache}")

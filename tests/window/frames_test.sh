@@ -1,26 +1,15 @@
 #!/usr/bin/env bash
-# How often frames are drawn and how well, in a window under Xvfb and a window manager: quality is chosen and kept, caps hold, and time played
-# is time passed.
+# How often frames are drawn, in a window under Xvfb and a window manager: seldom where nobody looks, caps hold, and time played is time passed.
 # usage: frames_test.sh SKERRY_PROGRAM     exit: 0 passed, 1 failed, 77 no Xvfb, xdotool, openbox or ImageMagick here
 source "$(dirname "${BASH_SOURCE[0]}")/harness.sh"
 skerry=$1
 key_pause=0.5
-start_display openbox display python3
+start_display openbox display
 start_manager
 other=
 trap 'kill "$manager" ${other:+"$other"} 2>/dev/null || true; cleanup' EXIT
 learnt=$work/cache/skerry/quality.json
 
-commands() { grep -c '^skerry shot' "$work/out" || true; }
-# Sets `command` to that of a new screenshot.
-has_more_commands() { [ "$(commands)" -gt "$1" ]; }
-screenshot() {
-  local before
-  before=$(commands)
-  xdotool key --window 0 F2
-  until_true "a screenshot is taken" has_more_commands "$before"
-  command=$(grep '^skerry shot' "$work/out" | tail -n 1)
-}
 # Processor seconds that the game takes in so many seconds.
 spent() { awk '{ print ($14 + $15) / 100 }' "/proc/$game/stat"; }
 spent_in() {
@@ -30,24 +19,6 @@ spent_in() {
   alive "while its time was measured"
   awk -v a="$before" -v b="$(spent)" 'BEGIN { print b - a }'
 }
-
-# Quality is chosen, what it was chosen by is kept, and what was asked for by name stays.
-mkdir -p "$work/cache/skerry"
-echo '{"version": 1, "machines": [' >"$learnt"
-quality=()
-play --seed 1 --set view.distance=100
-wait_for_frames
-sleep 40
-screenshot
-case $command in *view.distance=100*) ;; *) fail "the view distance that was named is gone: $command" ;; esac
-quit
-[ "$(grep -c . "$work/err")" = 1 ] && grep -q 'quality.json is damaged' "$work/err" || fail "it did not tell of the damaged file alone"
-python3 - "$learnt" <<'P' || fail "what was learnt was not kept: $(cat "$learnt")"
-import json, sys
-machine, = json.load(open(sys.argv[1]))["machines"]
-assert machine["machine"].endswith("320x180") and len(machine["costs_ms"]) >= 2, machine
-P
-cp "$learnt" "$work/learnt_before"
 
 # A named level learns nothing.
 quality=(--quality low)
@@ -102,7 +73,7 @@ awk -v a="$first" -v b="$(world_time)" -v s="$began" -v e="$(date +%s.%N)" \
   'BEGIN { played = b - a; passed = e - s; exit !(played > 3 && played < passed + 0.5 && played > passed - 1) }' ||
   fail "from world time $first to $(world_time) in $(awk -v s="$began" -v e="$(date +%s.%N)" 'BEGIN { print e - s }') s"
 quit
-cmp -s "$learnt" "$work/learnt_before" || fail "a named level changed what was learnt"
+[ ! -e "$learnt" ] || fail "a named level learnt something"
 
 # A cap holds, and every way to wait for the display starts.
 for sync in on adaptive; do

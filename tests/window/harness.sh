@@ -112,3 +112,14 @@ quit() {
   done
   expect_end
 }
+
+commands() { grep -c '^skerry shot' "$work/out" || true; }
+has_more_commands() { [ "$(commands)" -gt "$1" ]; }
+# Sets `command` to the command line of a new screenshot.
+screenshot() {
+  local before
+  before=$(commands)
+  xdotool key --window 0 F2
+  until_true "a screenshot is taken" has_more_commands "$before"
+  command=$(grep '^skerry shot' "$work/out" | tail -n 1)
+}
