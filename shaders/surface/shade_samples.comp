@@ -78,7 +78,9 @@ mat2x3 light_sent(Surface s, Depth depth, uint word, uvec2 pixel, float z, bool 
     if (!here) list.count = 0u;
     sent += lights_reflected(list, kNoShafts, b, way_start(s, word), to_eye);
   }
-  return sent * s.ao + mat2x3(around * brdf_around(b.black), around * brdf_around(b.white));
+  sent *= s.ao;
+  if (kIndirect != kIndirectOff) sent += mat2x3(around * brdf_around(b.black), around * brdf_around(b.white));
+  return sent;
 }
 
 void main() {

@@ -45,7 +45,8 @@ void main() {
   surface.ao = surface_ao(surface, word);
   Depth depth_in_water = depth_of_pixel(pixel, word, surface.position);
   SkyLight sky = light_of_sky(surface, word, sky_share(depth_in_water) * lit_again(depth_in_water));
-  vec3 lit = shade_surface(surface, depth_in_water) + sky.irradiance * brdf_around(surface_brdf(surface, -normalize(surface.position)));
+  vec3 lit = shade_surface(surface, depth_in_water);
+  if (kIndirect != kIndirectOff) lit += sky.irradiance * brdf_around(surface_brdf(surface, -normalize(surface.position)));
   vec3 colour = seen_through_air(lit, surface.position, sky.seen);
   put_pixel(pixel, colour, here && word != 0u);
 }
