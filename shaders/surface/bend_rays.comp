@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What is seen through the surface of level water, by rays that it bends: the radiance of the pixel where the picture shows the place that the bent
-// ray meets, and how far it lies from the surface [blocks]; its own pixel's and 0 where the picture does not show it. To an image of its own, since
-// pixels look at one another: put_bent_rays.comp copies it to the radiance image. docs/decisions/0063-water-bends-what-is-seen.md,
+// ray meets, and how far it lies from the surface [blocks], negative where an eye in water sees it mirrored because no light leaves there; its own
+// pixel's and 0 where the picture does not show it. To an image of its own, since pixels look at one another: put_bent_rays.comp copies it to the radiance image. docs/decisions/0063-water-bends-what-is-seen.md,
 // docs/decisions/0079-snells-window.md.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
@@ -49,6 +49,7 @@ struct Line {
 // Whether the nearest thing that a pixel shows is the water whose surface a word names. Pixels outside the picture, and where no water can be, stand
 // for the nearest ones that have some layer.
 ivec2 nearest_pixel(vec2 at) { return ivec2(clamp(at, vec2(frame.layers_area.xy), vec2(frame.layers_area.zw) - 1.0)); }
+ivec2 pixel_on_line(vec2 at, bool mirrored) { return mirrored ? ivec2(clamp(at, vec2(0.0), vec2(frame.size) - 1.0)) : nearest_pixel(at); }
 bool shows_water(ivec2 pixel, uint word) {
   return texelFetch(layer_depths_0, pixel, 0).r > 0.0 && texelFetch(layer_surfaces, ivec3(pixel, 0), 0).r == word;
 }
@@ -73,32 +74,36 @@ float bent_share(vec2 pixel, vec2 place, uint word) {
   return pow(1.0 + most * most * most * most, -0.25);
 }
 
-// Steps along a bent ray, over kLongest times the way that it would have if the bed were level; and halvings of the step that passes the bed.
-const uint kSteps = 6u, kHalvings = 4u;
-const float kLongest = 2.5;
+// Steps along a bent ray, over kLongest times the way that it would have if the bed were level, and along one that is mirrored, over as many
+// blocks; and halvings of the step that passes the bed.
+const uint kSteps = 6u, kHalvings = 4u, kMirroredSteps = 16u, kMirroredHalvings = 6u;
+const float kLongest = 2.5, kLongestMirrored = 32.0;
 
-// Whether what is opaque at a part of the line lies before the ray, behind the same surface.
-bool is_passed(Line line, float part, uint word) {
+// Whether what is opaque at a part of the line lies before the ray, behind the same surface; of a mirrored ray, before all surfaces, as the eye does.
+bool is_passed(Line line, float part, uint word, bool mirrored) {
   vec2 at = mix(line.from, line.to, part);
-  ivec2 pixel = nearest_pixel(at);
+  ivec2 pixel = pixel_on_line(at, mirrored);
   // What is not in the picture is looked for elsewhere: water.glsl.
   if (kBent == kBentIntoAir && ivec2(floor(at)) != pixel) return false;
-  return texelFetch(depths, pixel, 0).r >= mix(line.from_depth, line.to_depth, part) && shows_water(pixel, word);
+  bool there = mirrored ? layer_depth_at(layer_depths_0, pixel, frame.layers_area) <= 0.0 : shows_water(pixel, word);
+  return texelFetch(depths, pixel, 0).r >= mix(line.from_depth, line.to_depth, part) && there;
 }
 
 // @return the part of the line that the bed is met at; 2: it is not.
-float part_met(Line line, uint word) {
-  uint steps = min(kSteps, frame.size.x + kSteps);  // no constant, so that the loop is left early: docs/lavapipe.md
+float part_met(Line line, uint word, bool mirrored) {
+  uint most = mirrored ? kMirroredSteps : kSteps;
+  uint steps = min(most, frame.size.x + kSteps);  // no constant, so that the loop is left early: docs/lavapipe.md
   float before = 0.0, behind = 0.0;
   bool met = false;
   for (uint i = 0u; i < steps && !met; ++i) {
     before = behind;
-    behind += 1.0 / float(kSteps);
-    met = is_passed(line, behind, word);
+    behind += 1.0 / float(most);
+    met = is_passed(line, behind, word, mirrored);
   }
-  for (uint i = 0u; i < kHalvings; ++i) {
+  uint halvings = mirrored ? kMirroredHalvings : kHalvings;
+  for (uint i = 0u; i < halvings; ++i) {
     float middle = 0.5 * (before + behind);
-    bool past = is_passed(line, middle, word);
+    bool past = is_passed(line, middle, word, mirrored);
     before = past ? before : middle;
     behind = past ? middle : behind;
   }
@@ -133,9 +138,20 @@ Bent bent_out_of_water(vec2 from, vec3 ray, float z, vec3 shading, vec3 n) {
   return Bent(Line(from, pixel_place(dir, ahead), frame.near_plane / z, 0.0), 1.0, z, ahead > 1e-2);
 }
 
-// Whether a ray into the air meets what the picture shows at a part of its line, and does not pass behind it.
-bool meets(Line line, float part) {
-  float opaque = texelFetch(depths, nearest_pixel(mix(line.from, line.to, part)), 0).r, there = mix(line.from_depth, line.to_depth, part);
+// What an eye in water sees mirrored where no light leaves it.
+Bent mirrored_into_water(vec2 from, vec3 ray, float z, vec3 shading, vec3 n) {
+  vec3 dir = reflect(normalize(ray), shading);
+  dir -= n * (2.0 * min(dot(dir, n), 0.0));
+  // Not behind the eye.
+  float ahead = dot(dir, frame.ray_forward), longest = min(kLongestMirrored, ahead < 0.0 ? 0.8 * z / -ahead : 1e6);
+  vec3 end = ray * z + dir * longest;
+  float end_z = dot(end, frame.ray_forward);
+  return Bent(Line(from, pixel_place(end, end_z), frame.near_plane / z, frame.near_plane / end_z), longest, end_z, true);
+}
+
+// Whether a ray from water about the eye meets what the picture shows at a part of its line, and does not pass behind it.
+bool meets(Line line, float part, bool mirrored) {
+  float opaque = texelFetch(depths, pixel_on_line(mix(line.from, line.to, part), mirrored), 0).r, there = mix(line.from_depth, line.to_depth, part);
   if (opaque <= 0.0) return there <= 0.0;
   float met = view_distance(opaque, frame.near_plane);
   return abs(view_distance(max(there, 1e-12), frame.near_plane) - met) < 0.5 + 0.02 * met;
@@ -152,17 +168,20 @@ void main() {
   vec3 shading = shading_normal(word, ray, z);
   vec2 from = vec2(at) + frame.sample_in_pixel;
   Bent bent;
+  bool mirrored = false;
   if (kBent == kBentIntoAir) {
+    mirrored = bent_into_air(normalize(ray), shading, n) == vec3(0.0);
     bent = bent_out_of_water(from, ray, z, shading, n);
+    if (mirrored) bent = mirrored_into_water(from, ray, z, shading, n);
     bent.known = bent.known && surface_block(word) == frame.camera_medium;
   } else {
     bent = bent_into_water(from, ray, z, shading, n, texelFetch(depths, pixel, 0).r, word);
   }
-  float part = part_met(bent.line, word);
-  if (kBent == kBentIntoAir) bent.known = bent.known && meets(bent.line, part);
-  bool bends = has_ripples(word) && bent.known && part <= 1.0 && !another_behind(at, ray, word, n, z);
+  float part = part_met(bent.line, word, mirrored);
+  if (kBent == kBentIntoAir) bent.known = bent.known && meets(bent.line, part, mirrored);
+  bool bends = has_ripples(word) && bent.known && part <= 1.0 && (mirrored || !another_behind(at, ray, word, n, z));
   // Even parts of the line are not even parts of the ray.
   float way = bent.longest * part * z / mix(bent.end_z, z, part);
-  vec3 behind = imageLoad(radiance, bends ? nearest_pixel(mix(bent.line.from, bent.line.to, part)) : pixel).rgb;
-  if (word != 0u) imageStore(bent_light, pixel, vec4(behind, bends ? way : 0.0));
+  vec3 behind = imageLoad(radiance, bends ? pixel_on_line(mix(bent.line.from, bent.line.to, part), mirrored) : pixel).rgb;
+  if (word != 0u) imageStore(bent_light, pixel, vec4(behind, bends ? (mirrored ? -way : way) : 0.0));
 }

@@ -252,6 +252,8 @@ MUTANTS = (
            "underwater underwater_up"),
     Mutant("no_waves", "water is flat", "shaders/include/surface/ripples.glsl", "slope *= fading(distance);", "slope *= 0.0;",
            "underwater_up water"),
+    Mutant("mirrored_from_below_unseen", "an eye in water sees no blocks in what the surface mirrors", "shaders/surface/bend_rays.comp",
+           "(mirrored ? -way : way)", "(mirrored ? 0.0 : way)", "underwater"),
     Mutant("waves_lost_afar", "water mirrors lights in a point where its waves are too far away to be drawn",
            "shaders/include/surface/ripples.glsl", "kRippleAlpha2 * (1.0 - left * left)", "0.0 * left", "glitter"),
     Mutant("water_before_everything", "water shows through what is before it", "shaders/surface/write_layer.frag",

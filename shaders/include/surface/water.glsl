@@ -102,8 +102,8 @@ FaceSky sky_about(vec3 p, uint word) {
 }
 
 // What the nearest surface of a pixel mirrors of the world. Once a pixel: a march for each layer would cost as much again.
-// @param outwards the ray to follow instead: what looks_out() gives. 0: none.
-Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye, vec3 outwards) {
+// @param outwards the ray to follow instead: what looks_out() gives. 0: none. @param shown of bend_rays.comp, which may have found it in the picture.
+Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye, vec3 outwards, vec4 shown) {
   uint word = layer_surface(0u, ivec2(pixel));
   float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
   vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
@@ -114,7 +114,9 @@ Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye, vec3 outwards) 
     at.n = -n;
     at.word = word ^ kOppositeFace;
   }
-  return mirrored_voxels(layer_start(at), at.p, dir, word != 0u);
+  bool found = kBent == kBentIntoAir && shown.w < 0.0;
+  Mirrored met = mirrored_voxels(layer_start(at), at.p, dir, word != 0u && !found);
+  return found ? Mirrored(shown.rgb, -shown.w, false) : met;
 }
 
 // What a surface mirrors, seen from outside. @param nearest what it mirrors of the world, if that is known.
@@ -157,7 +159,7 @@ vec3 mirrored_inside(Material m, vec3 light_in, bool known, Mirrored nearest) {
   return scattered(m, light_in, way) + (met ? exp(-extinction(m) * way) * nearest.radiance : vec3(0.0));
 }
 
-// @param behind radiance of what is opaque there; w: how far it lies from the water's surface by a bent ray [blocks], or 0.
+// @param behind radiance of what is opaque there, or what bend_rays.comp found; w: how far it lies from the water's surface by that ray [blocks], or 0.
 vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   float ray_length = length(ray);
   vec3 to_eye = -ray / ray_length;
@@ -176,7 +178,7 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   Mirrored nearest = Mirrored(vec3(0.0), 0.0, true);
   vec3 bent = looks_out(pixel, ray, behind.w);
   bool outwards = bent != vec3(0.0);
-  if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye, bent);
+  if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye, bent, behind);
   uint last_word = 0u;
   // What has been seen so far through the air before it; of the last surface how clear that air is, what it sends, and what is let through to it.
   vec3 seen = vec3(0.0), air = vec3(0.0), entered = vec3(1.0);

@@ -139,5 +139,83 @@ TEST_F(BentLight, FromWaterTheSkyIsSeenWithinSnellsWindow) {
   }
 }
 
+constexpr int kWall = 40, kLampsFrom = 28, kLampsTo = 36;  // x; z
+
+world::BlockId before_a_wall(int x, int y, int z) {
+  if (y >= 0) return world::block::kAirBlock;
+  if (x >= kWall) {
+    return z >= kLampsFrom && z < kLampsTo ? world::block::kLamp : world::block::kStone;
+  }
+  return y >= -4 ? world::block::kWater : world::block::kStone;
+}
+
+/// Where an eye in water meets the wall by a ray, in the water or mirrored by its surface.
+struct MetWall {
+  double way = 0.0, z = 0.0;
+  bool mirrored = false, near_an_edge = true;
+};
+MetWall wall_met(glm::dvec3 ray) {
+  if (ray.x < 0.1) return {};
+  MetWall out;
+  out.way = (kWall - kInWater.x) / ray.x;
+  glm::dvec3 end = kInWater + out.way * ray;
+  if (end.y > -0.2 && end.y < 0.2) return {};
+  if (end.y > 0.0) {
+    const double up = -kInWater.y / ray.y;
+    const glm::dvec3 p = kInWater + up * ray;
+    const reference::Meeting surface{.t = up, .face = 2, .voxel = {}, .lattice = p};
+    const glm::dvec3 normal = -reference::ripples_of(surface, 0.0);
+    if (1.333 * std::sqrt(1.0 - std::pow(glm::dot(ray, normal), 2.0)) < 1.03) return {};
+    const glm::dvec3 down = glm::reflect(ray, normal);
+    if (down.y > -0.05) return {};
+    const double on = (kWall - p.x) / down.x;
+    end = p + on * down;
+    out.way = up + on;
+    out.mirrored = true;
+  }
+  out.z = end.z;
+  out.near_an_edge =
+      end.y < -3.7 || std::abs(end.z - kLampsFrom) < 0.3 || std::abs(end.z - kLampsTo) < 0.3;
+  return out;
+}
+
+TEST_F(BentLight, WhatWaterMirrorsFromBelowIsAsThePictureShowsIt) {
+  add(before_a_wall, {0, -1, 0}, {1, 1, 1});
+  add_occupancy(before_a_wall, {0, -1, 0}, {1, 1, 1});
+  RenderSettings settings;
+  settings.water_mirror = WaterMirror::kWorld;
+  settings.indirect = Indirect::kOff;
+  settings.leave_out.add(Feature::kHaze);
+  FrameInput in;
+  in.islands = islands_;
+  in.sky = celestial_at(0.0, 0.0);
+  in.camera = camera_at(kInWater, 90.0, 0.0, 60.0);
+  in.camera_medium = world::block::kWater;
+  const std::vector<glm::vec4> seen = radiance(in, settings, kSize);
+  const double taken = extinction_of(world::block::kWater).z;
+  double sent[2] = {};  // by lamps in a block's way: seen straight, mirrored
+  int lamps[2] = {}, stones = 0, wrong = 0;
+  for (std::uint32_t y = 0; y < kSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kSize.width; ++x) {
+      const MetWall met =
+          wall_met(glm::normalize(ray_of(in.camera, x, y, kSize.width, kSize.height)));
+      if (met.near_an_edge) continue;
+      const double blue = seen[y * kSize.width + x].z * std::exp(taken * met.way);
+      if (met.z >= kLampsFrom && met.z < kLampsTo) {
+        sent[met.mirrored] += blue;
+        ++lamps[met.mirrored];
+      } else {
+        wrong += blue > 0.02;
+        ++stones;
+      }
+    }
+  }
+  ASSERT_GT(lamps[0], 500);
+  ASSERT_GT(lamps[1], 300);
+  EXPECT_GT(stones, 300);
+  EXPECT_LT(wrong, 0.005 * stones);
+  EXPECT_NEAR(sent[1] / lamps[1], sent[0] / lamps[0], 0.05 * sent[0] / lamps[0]);
+}
+
 }  // namespace
 }  // namespace skerry::render
