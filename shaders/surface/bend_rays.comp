@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // What is seen through the surface of level water, by rays that it bends: the radiance of the pixel where the picture shows the place that the bent
 // ray meets, and how far it lies from the surface [blocks], negative where an eye in water sees it mirrored because no light leaves there; its own
-// pixel's and 0 where the picture does not show it. To an image of its own, since pixels look at one another: put_bent_rays.comp copies it to the radiance image. docs/decisions/0063-water-bends-what-is-seen.md,
-// docs/decisions/0079-snells-window.md.
+// pixel's and 0 where the picture does not show it. To an image of its own, since pixels look at one another: put_bent_rays.comp copies it to the
+// radiance image. docs/decisions/0063-water-bends-what-is-seen.md, docs/decisions/0079-snells-window.md.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
@@ -117,6 +117,15 @@ struct Bent {
   bool known;
 };
 
+// A ray in water, from p on, at `z` along the view axis. @param from pixels. @param most blocks of it.
+Bent bent_within(vec2 from, vec3 p, vec3 dir, float z, float most, bool known) {
+  // Not behind the eye.
+  float ahead = dot(dir, frame.ray_forward), longest = min(most, ahead < 0.0 ? 0.8 * z / -ahead : 1e6);
+  vec3 end = p + dir * longest;
+  float end_z = dot(end, frame.ray_forward);
+  return Bent(Line(from, pixel_place(end, end_z), frame.near_plane / z, frame.near_plane / end_z), longest, end_z, known);
+}
+
 // @param from pixels. @param p of the surface at `z` along the view axis, n its normal. @param opaque depth of the pixel.
 Bent bent_into_water(vec2 from, vec3 ray, float z, vec3 shading, vec3 n, float opaque, uint word) {
   vec3 p = ray * z, dir = refract(normalize(ray), shading, 1.0 / kWaterIndex);
@@ -124,29 +133,13 @@ Bent bent_into_water(vec2 from, vec3 ray, float z, vec3 shading, vec3 n, float o
   float level = max(depth, 0.0) / max(-dot(dir, n), 0.1);
   vec3 flat_bed = p + dir * level;
   dir = normalize(mix(normalize(ray), dir, bent_share(from, pixel_place(flat_bed, dot(flat_bed, frame.ray_forward)), word)));
-  // Not behind the eye.
-  float ahead = dot(dir, frame.ray_forward), longest = min(level * kLongest, ahead < 0.0 ? 0.8 * z / -ahead : 1e6);
-  vec3 end = p + dir * longest;
-  float end_z = dot(end, frame.ray_forward);
-  return Bent(Line(from, pixel_place(end, end_z), frame.near_plane / z, frame.near_plane / end_z), longest, end_z, depth > 0.0);
+  return bent_within(from, p, dir, z, level * kLongest, depth > 0.0);
 }
 
-// The same above the water about the eye: up to the sky.
-Bent bent_out_of_water(vec2 from, vec3 ray, float z, vec3 shading, vec3 n) {
-  vec3 dir = bent_into_air(normalize(ray), shading, n);
+// The same above the water about the eye: up to the sky. @param dir of the bent ray.
+Bent bent_out_of_water(vec2 from, vec3 dir, float z) {
   float ahead = dot(dir, frame.ray_forward);
   return Bent(Line(from, pixel_place(dir, ahead), frame.near_plane / z, 0.0), 1.0, z, ahead > 1e-2);
-}
-
-// What an eye in water sees mirrored where no light leaves it.
-Bent mirrored_into_water(vec2 from, vec3 ray, float z, vec3 shading, vec3 n) {
-  vec3 dir = reflect(normalize(ray), shading);
-  dir -= n * (2.0 * min(dot(dir, n), 0.0));
-  // Not behind the eye.
-  float ahead = dot(dir, frame.ray_forward), longest = min(kLongestMirrored, ahead < 0.0 ? 0.8 * z / -ahead : 1e6);
-  vec3 end = ray * z + dir * longest;
-  float end_z = dot(end, frame.ray_forward);
-  return Bent(Line(from, pixel_place(end, end_z), frame.near_plane / z, frame.near_plane / end_z), longest, end_z, true);
 }
 
 // Whether a ray from water about the eye meets what the picture shows at a part of its line, and does not pass behind it.
@@ -170,9 +163,10 @@ void main() {
   Bent bent;
   bool mirrored = false;
   if (kBent == kBentIntoAir) {
-    mirrored = bent_into_air(normalize(ray), shading, n) == vec3(0.0);
-    bent = bent_out_of_water(from, ray, z, shading, n);
-    if (mirrored) bent = mirrored_into_water(from, ray, z, shading, n);
+    vec3 dir = bent_into_air(normalize(ray), shading, n);
+    mirrored = dir == vec3(0.0);
+    bent = bent_out_of_water(from, dir, z);
+    if (mirrored) bent = bent_within(from, ray * z, mirrored_ray(-normalize(ray), shading, n), z, kLongestMirrored, true);
     bent.known = bent.known && surface_block(word) == frame.camera_medium;
   } else {
     bent = bent_into_water(from, ray, z, shading, n, texelFetch(depths, pixel, 0).r, word);

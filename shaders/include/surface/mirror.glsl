@@ -5,12 +5,6 @@
 
 const float kMirrorReach = 256.0;  // blocks that a mirrored ray is followed
 
-// A mirrored ray that a ripple turns into its own surface's plane goes on as if it had been mirrored there again.
-vec3 mirrored_ray(vec3 to_eye, vec3 shading_normal, vec3 normal) {
-  vec3 mirror = reflect(-to_eye, shading_normal);
-  return mirror - normal * (2.0 * min(dot(mirror, normal), 0.0));
-}
-
 // The radiance of a place, if the picture shows it, and no water or glass there changes it in this pass.
 bool shown_at(vec3 p, out vec3 seen) {
   float z = dot(p, frame.ray_forward);
