@@ -115,11 +115,11 @@ quit() {
 
 commands() { grep -c '^skerry shot' "$work/out" || true; }
 has_more_commands() { [ "$(commands)" -gt "$1" ]; }
-# Sets `command` to the command line of a new screenshot.
+# Sets `command` to the command line of a new screenshot. @param which it is, for messages.
 screenshot() {
   local before
   before=$(commands)
   xdotool key --window 0 F2
-  until_true "a screenshot is taken" has_more_commands "$before"
+  until_true "a screenshot is taken ${1-}" has_more_commands "$before"
   command=$(grep '^skerry shot' "$work/out" | tail -n 1)
 }

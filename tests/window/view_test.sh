@@ -14,14 +14,9 @@ wait_for_frames
 wait_until_quick
 
 cameras() { { grep -o -- '--camera [^ ]*' "$work/out" || true; } | cut -d ' ' -f 2; }
-commands() { grep -c '^skerry shot' "$work/out" || true; }
-has_more_commands() { [ "$(commands)" -gt "$1" ]; }
 # Takes a screenshot; prints yaw and pitch.
 direction() {
-  local before
-  before=$(commands)
-  xdotool key --window 0 F2
-  until_true "a screenshot is taken $1" has_more_commands "$before"
+  screenshot "$1"
   cameras | tail -n 1 | cut -d , -f 4,5
 }
 expect_same() {  # to a hundredth of a degree: what is taken back is rounded

@@ -37,6 +37,15 @@ class BentLight : public RendererOnGpu {
   }
 };
 
+/// Voxels are mirrored, and nothing but what is asked for gives light.
+RenderSettings of_an_eye_in_water() {
+  RenderSettings settings;
+  settings.water_mirror = WaterMirror::kWorld;
+  settings.indirect = Indirect::kOff;
+  settings.leave_out.add(Feature::kHaze);
+  return settings;
+}
+
 TEST_F(BentLight, ABedIsSeenWhereSnellsLawHasIt) {
   add(lake, {0, -1, 0}, {1, 0, 1});
   for (const double pitch : {25.0, 45.0, 70.0}) {
@@ -71,6 +80,18 @@ world::BlockId under_a_ceiling(int x, int y, int) {
   return y >= -4 ? world::block::kWater : world::block::kStone;
 }
 
+/// Where a ray of the eye in water meets the rippled surface.
+struct SurfaceMet {
+  double way;
+  glm::dvec3 place, normal;  // towards the eye
+};
+SurfaceMet surface_met(glm::dvec3 ray) {
+  const double way = -kInWater.y / ray.y;
+  const glm::dvec3 place = kInWater + way * ray;
+  const reference::Meeting surface{.t = way, .face = 2, .voxel = {}, .lattice = place};
+  return {way, place, -reference::ripples_of(surface, 0.0)};
+}
+
 /// What an eye in water sees along a ray: the sky through the rippled surface, by Snell's,
 /// Fresnel's and Beer's laws.
 struct Above {
@@ -80,10 +101,8 @@ struct Above {
 Above seen_above(const SkyModel& sky, glm::dvec3 ray) {
   if (ray.y < 0.05) return {};
   constexpr double kIndex = 1.333;
-  const double way = -kInWater.y / ray.y;
-  const glm::dvec3 p = kInWater + way * ray;
-  const reference::Meeting surface{.t = way, .face = 2, .voxel = {}, .lattice = p};
-  const glm::dvec3 normal = -reference::ripples_of(surface, 0.0);
+  const SurfaceMet met = surface_met(ray);
+  const glm::dvec3 p = met.place, normal = met.normal;
   const glm::dvec3 bent = glm::refract(ray, normal, kIndex);
   const double sine = kIndex * std::sqrt(1.0 - std::pow(glm::dot(ray, normal), 2.0));
   if (std::abs(sine - 1.0) < 0.03) return {};
@@ -100,17 +119,13 @@ Above seen_above(const SkyModel& sky, glm::dvec3 ray) {
       upright + (1.0 - upright) * std::pow(1.0 - std::abs(glm::dot(bent, normal)), 5.0);
   // Radiance goes with the square of the index.
   return {false, kIndex * kIndex * (1.0 - mirrored) *
-                     glm::exp(-way * extinction_of(world::block::kWater)) *
+                     glm::exp(-met.way * extinction_of(world::block::kWater)) *
                      sky_radiance(bent, sky)};
 }
 
 TEST_F(BentLight, FromWaterTheSkyIsSeenWithinSnellsWindow) {
   add(under_a_ceiling, {0, -1, 0}, {1, 1, 1});
   add_occupancy(under_a_ceiling, {0, -1, 0}, {1, 1, 1});
-  RenderSettings settings;
-  settings.water_mirror = WaterMirror::kWorld;
-  settings.indirect = Indirect::kOff;
-  settings.leave_out.add(Feature::kHaze);
   // Most that the bent rays meet is in the first picture, little in the last one.
   for (const double pitch : {40.0, 65.0, 85.0}) {
     FrameInput in;
@@ -119,7 +134,7 @@ TEST_F(BentLight, FromWaterTheSkyIsSeenWithinSnellsWindow) {
     in.sky.sun_irradiance = glm::vec3(0.0f);
     in.camera = camera_at(kInWater, 270.0, pitch, 60.0);
     in.camera_medium = world::block::kWater;
-    const std::vector<glm::vec4> seen = radiance(in, settings, kSize);
+    const std::vector<glm::vec4> seen = radiance(in, of_an_eye_in_water(), kSize);
     const SkyModel sky = sky_model(in.sky, kWorldAboveMistKm);
     int open = 0, closed = 0, wrong = 0;
     for (std::uint32_t y = 0; y < kSize.height; ++y) {
@@ -161,16 +176,13 @@ MetWall wall_met(glm::dvec3 ray) {
   glm::dvec3 end = kInWater + out.way * ray;
   if (end.y > -0.2 && end.y < 0.2) return {};
   if (end.y > 0.0) {
-    const double up = -kInWater.y / ray.y;
-    const glm::dvec3 p = kInWater + up * ray;
-    const reference::Meeting surface{.t = up, .face = 2, .voxel = {}, .lattice = p};
-    const glm::dvec3 normal = -reference::ripples_of(surface, 0.0);
-    if (1.333 * std::sqrt(1.0 - std::pow(glm::dot(ray, normal), 2.0)) < 1.03) return {};
-    const glm::dvec3 down = glm::reflect(ray, normal);
+    const SurfaceMet surface = surface_met(ray);
+    if (1.333 * std::sqrt(1.0 - std::pow(glm::dot(ray, surface.normal), 2.0)) < 1.03) return {};
+    const glm::dvec3 down = glm::reflect(ray, surface.normal);
     if (down.y > -0.05) return {};
-    const double on = (kWall - p.x) / down.x;
-    end = p + on * down;
-    out.way = up + on;
+    const double on = (kWall - surface.place.x) / down.x;
+    end = surface.place + on * down;
+    out.way = surface.way + on;
     out.mirrored = true;
   }
   out.z = end.z;
@@ -182,16 +194,12 @@ MetWall wall_met(glm::dvec3 ray) {
 TEST_F(BentLight, WhatWaterMirrorsFromBelowIsAsThePictureShowsIt) {
   add(before_a_wall, {0, -1, 0}, {1, 1, 1});
   add_occupancy(before_a_wall, {0, -1, 0}, {1, 1, 1});
-  RenderSettings settings;
-  settings.water_mirror = WaterMirror::kWorld;
-  settings.indirect = Indirect::kOff;
-  settings.leave_out.add(Feature::kHaze);
   FrameInput in;
   in.islands = islands_;
   in.sky = celestial_at(0.0, 0.0);
   in.camera = camera_at(kInWater, 90.0, 0.0, 60.0);
   in.camera_medium = world::block::kWater;
-  const std::vector<glm::vec4> seen = radiance(in, settings, kSize);
+  const std::vector<glm::vec4> seen = radiance(in, of_an_eye_in_water(), kSize);
   const double taken = extinction_of(world::block::kWater).z;
   double sent[2] = {};  // by lamps in a block's way: seen straight, mirrored
   int lamps[2] = {}, stones = 0, wrong = 0;
