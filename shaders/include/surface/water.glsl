@@ -159,6 +159,26 @@ vec3 mirrored_inside(Material m, vec3 light_in, bool known, Mirrored nearest) {
   return scattered(m, light_in, way) + (met ? exp(-extinction(m) * way) * nearest.radiance : vec3(0.0));
 }
 
+// A surface of a pixel.
+struct Layer {
+  uint k, word;  // word 0: there is none
+  float t;       // of the surface along the view axis
+  vec3 n;        // its normal
+};
+
+Layer layer_at(uint k, uvec2 pixel) {
+  uint word = k < kWaterLayers ? layer_surface(k, ivec2(pixel)) : 0u;
+  float t = view_distance(word != 0u ? layer_depth(k, ivec2(pixel)) : 1.0, frame.near_plane);
+  return Layer(k, word, t, world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word))));
+}
+
+// The first from layer k on that is not the same surface as the one before it, of a word at t.
+Layer next_layer(uint k, uvec2 pixel, vec3 ray, uint before, float t) {
+  Layer next = layer_at(k, pixel);
+  while (next.word != 0u && are_one_surface(next.word, before, next.n, ray, pixel_ray(pixel + 1u), t, next.t)) next = layer_at(next.k + 1u, pixel);
+  return next;
+}
+
 // @param behind radiance of what is opaque there, or what bend_rays.comp found; w: how far it lies from the water's surface by that ray [blocks], or 0.
 vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   float ray_length = length(ray);
@@ -179,18 +199,15 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
   vec3 bent = looks_out(pixel, ray, behind.w);
   bool outwards = bent != vec3(0.0);
   if (kMirrorWorld) nearest = mirrored_by_nearest(pixel, ray, to_eye, bent, behind);
-  uint last_word = 0u;
   // What has been seen so far through the air before it; of the last surface how clear that air is, what it sends, and what is let through to it.
   vec3 seen = vec3(0.0), air = vec3(0.0), entered = vec3(1.0);
   float clear = 1.0;
-  for (uint k = 0u; k < kWaterLayers; ++k) {
-    uint word = layer_surface(k, ivec2(pixel));
-    if (word == 0u) break;
-    float t = view_distance(layer_depth(k, ivec2(pixel)), frame.near_plane);
+  Layer layer = layer_at(0u, pixel);
+  while (layer.word != 0u) {
+    uint k = layer.k, word = layer.word;
+    float t = layer.t;
     float next = t * ray_length;
-    vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
-    if (are_one_surface(word, last_word, n, ray, pixel_ray(pixel + 1u), at / ray_length, t)) continue;
-    last_word = word;
+    vec3 n = layer.n;
     if (medium != 0u) {
       Material m = materials[medium];
       colour += through * scattered(m, light_in, next - at);
@@ -237,6 +254,8 @@ vec3 look_through(uvec2 pixel, vec3 ray, vec4 behind) {
     light_in = reach.light;
     medium = entering ? block : 0u;
     at = next;
+    layer = next_layer(k + 1u, pixel, ray, word, t);
+    if (layer.word == 0u) break;  // here, since a CPU driver runs a round to its end where no pixel takes part: docs/lavapipe.md
   }
   if (outwards) behind.rgb = seen_above(bent, nearest, kMirroredClouds, pixel);
   float end = kBent == kBentIntoWater && behind.w > 0.0 ? at + behind.w : end_of_media(opaque, at, ray_length);
