@@ -59,7 +59,8 @@ uint shaft_state(VoxelGrid grid, Box box, vec3 end, ivec3 spared) {
   float piece = 0.0, thick = 1.0, per_low = 1.0 / (to - low), per_high = 1.0 / (to - high);
   // Beyond the island's voxels nothing is in the way.
   float voxels_end = float(64 * (sign > 0.0 ? along(grid.low + grid.size, d) : -along(grid.low, d)));
-  while (slab <= min(to + kMargin, voxels_end)) {
+  float last = min(to + kMargin, voxels_end);
+  while (slab <= last) {
     // Shares of the way: where the first way enters the piece, where the last one leaves it.
     float enters = clamp((slab + piece - high) * per_high, 0.0, 1.0);
     float leaves = clamp((slab + piece + thick - low) * per_low, 0.0, 1.0);
@@ -72,7 +73,7 @@ uint shaft_state(VoxelGrid grid, Box box, vec3 end, ivec3 spared) {
     bool any_opaque = false, all_opaque = slab + piece >= high && slab + piece + thick <= to - kMargin;
     int cell = int(sign > 0.0 ? slab : -slab - 1.0);
     ivec2 c = c0;
-    for (int i = 0; i < cells; ++i) {
+    for (int i = 0;;) {
       ivec3 voxel = d == 0u ? ivec3(cell, c.x, c.y) : d == 1u ? ivec3(c.y, cell, c.x) : ivec3(c.x, c.y, cell);
       bool opaque = voxel != spared && voxel_opaque(grid, voxel);
       any_opaque = any_opaque || opaque;
@@ -80,6 +81,7 @@ uint shaft_state(VoxelGrid grid, Box box, vec3 end, ivec3 spared) {
       // No division: lavapipe divides whole numbers lane by lane.
       bool end_of_row = ++c.x == c0.x + size.x;
       c = end_of_row ? ivec2(c0.x, c.y + 1) : c;
+      if (++i >= cells) break;
     }
     if (all_opaque) return kBlocked;
     if (any_opaque && thick == 1.0) {
@@ -93,6 +95,7 @@ uint shaft_state(VoxelGrid grid, Box box, vec3 end, ivec3 spared) {
       thick = 1.0;
       slab += 1.0;
     }
+    if (slab > last) break;
   }
   return some ? kUnknown : kOpen;
 }
@@ -193,20 +196,24 @@ void main() {
   for (uint list = 0u; list < kShaftLists; ++list) {
     Cluster lights_here = Cluster(0u, 0u);
     if (slices[list] != kNoSlice) lights_here = clusters[cluster_of(tile_at(uvec2(tile_low)), slices[list])];
-    for (uint word = 0u; word < kShaftWords && word * 32u < lights_here.count; ++word) {
+    for (uint word = 0u; lights_here.count > 0u;) {
       uint asked = 0u, open = 0u;
       uint end = min(lights_here.count, word * 32u + 32u);
-      for (uint i = word * 32u; i < end; ++i) {
+      for (uint i = word * 32u;;) {
         Light light = frame_light(light_index(lights_here, i));
         uint states = 0u;
-        for (uint k = 0u; k < g.count; ++k)
+        for (uint k = 0u; g.count > 0u;) {
           if (slice_of(g.keys[k]) == slices[list])
             states |= way_state(light, g.keys[k], g.planes[k], g.lows[k], g.highs[k]);
+          if (++k == g.count) break;
+        }
         if (states > kBlocked) asked |= 1u << (i & 31u);
         if (states == kOpen) open |= 1u << (i & 31u);
+        if (++i == end) break;
       }
       tile_shafts[tile].asked[list * kShaftWords + word] = asked;
       tile_shafts[tile].open[list * kShaftWords + word] = open;
+      if (++word == kShaftWords || word * 32u >= lights_here.count) break;
     }
   }
 }

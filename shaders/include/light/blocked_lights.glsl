@@ -48,18 +48,19 @@ bool arrives_at(Light light, WayStart start) {
 Reflected strongest_blocked(Cluster list, Reflectance b, WayStart start, vec3 to_eye) {
   Strongest strongest = no_lights();
   Reflected others = Reflected(0.0);
-  for (uint i = 0u; i < list.count; ++i) {
+  for (uint i = 0u; list.count > 0u;) {
     uint index = light_index(list, i);
     Light light = frame_light(index);
     Reflected part = sent_to_eye(light, b, start, to_eye);
     if (!arrives_at(light, start)) part = Reflected(0.0);
     others += part;
     add_strength(strongest, strength_of(part), index);
+    if (++i == list.count) break;
   }
   Reflected arrived = Reflected(0.0);
   float asked = 0.0, through = 0.0;
   uint found = lights_found(strongest);  // not a branch within: lavapipe goes through rounds that the compiler can count
-  for (uint k = 0u; k < found; ++k) {
+  for (uint k = 0u; found > 0u;) {
     Light light = frame_light(strongest.lights[k]);
     Reflected part = sent_to_eye(light, b, start, to_eye);
     float visibility = traced_visibility(start, light);
@@ -67,6 +68,7 @@ Reflected strongest_blocked(Cluster list, Reflectance b, WayStart start, vec3 to
     arrived += part * visibility;
     asked += strongest.strengths[k];
     through += strongest.strengths[k] * visibility;
+    if (++k == found) break;
   }
   return arrived + not_negative(others) * (asked > 0.0 ? through / asked : 1.0);
 }
@@ -85,7 +87,7 @@ Reflected lights_reflected(Cluster list, ShaftList shafts, Reflectance b, WaySta
   if (kLightsShadows != 0u && kLightsShadows != kEveryLight) return strongest_blocked(list, b, start, to_eye);
   Reflected sum = Reflected(0.0);
   // By words of 32: lavapipe ends loops after 65,535 rounds.
-  for (uint word = 0u; word * 32u < list.count; ++word) {
+  for (uint word = 0u; list.count > 0u;) {
     uint first = word * 32u, left = asked_of(shafts, word, list.count), open = open_of(shafts, word);
     // In the lights' order, but those with open ways in a loop of their own: where lavapipe comes by code that traces, nobody needs it.
     while (left != 0u) {
@@ -94,7 +96,9 @@ Reflected lights_reflected(Cluster list, ShaftList shafts, Reflectance b, WaySta
       if (left == 0u) break;
       sum += light_past_walls(frame_light(light_index(list, first + uint(findLSB(left)))), b, start, to_eye);
       left &= left - 1u;
+      if (left == 0u) break;
     }
+    if (++word * 32u >= list.count) break;
   }
   return sum;
 }

@@ -107,7 +107,7 @@ WayStart way_from(vec3 p) { return WayStart(p, vec3(0.0), ~0u, ivec3(0), vec3(0.
 // Whether nothing opaque stands between a surface and a point of a light.
 bool way_is_open(WayStart start, Light light, vec3 to, vec3 light_middle) {
   bool open = true;
-  for (uint i = 0u; open && i < light.island_count; ++i) {
+  for (uint i = 0u; light.island_count > 0u;) {
     uint island = light_islands[light.first_island + i];
     IslandTransform t = island_at(island);
     VoxelGrid grid = voxel_grid(island);
@@ -117,6 +117,7 @@ bool way_is_open(WayStart start, Light light, vec3 to, vec3 light_middle) {
     // The voxel that a light stands in does not block it.
     ivec3 spared = ivec3(clamp(floor(lattice_from_world(t, light_middle) * grid.per_block), -1e9, 1e9));
     open = !marched_into(grid, from, voxel, lattice_from_world(t, to) * grid.per_block, spared);
+    if (!open || ++i == light.island_count) break;
   }
   return open;
 }
@@ -150,7 +151,10 @@ float traced_visibility(WayStart start, Light light) {
   }
   uint samples = light.size > 0.0 ? kLightsSoftness : 1u;
   uint open = 0u;
-  for (uint i = 0u; i < samples; ++i) open += way_is_open(start, light, light_point(start, light, i), light.position) ? 1u : 0u;
+  for (uint i = 0u;;) {
+    open += way_is_open(start, light, light_point(start, light, i), light.position) ? 1u : 0u;
+    if (++i == samples) break;
+  }
   return float(open) / float(samples);
 }
 #endif

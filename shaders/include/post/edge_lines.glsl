@@ -137,12 +137,13 @@ float texture_share(SeenFace s, vec2 seen, int places) {
   middle -= plant ? floor(shown + vec2(0.0, 0.001)) : floor(middle);
   vec2 place = vec2(-0.125, 0.25);
   float sum = 0.0;
-  for (int i = 0; i < places; ++i) {
+  for (int i = 0;;) {
     vec2 asked = place + kCentre, hit = middle + asked.x * right + asked.y * down, inside = abs(hit - 0.5), uv = vec2(hit.x, down_v * hit.y);
     if (plant) uv = plant_uv(uv);
     float alpha = clamp((textureLod(block_textures, vec3(uv, float(layer)), level).r - 0.5) * steep + 0.5, 0.0, 1.0);
     sum += plant && max(inside.x, inside.y) > 0.5 ? 0.0 : alpha;
     place = -place;  // across the centre
+    if (++i >= places) break;
   }
   return s.word != 0u && s.inverse.x > 0.0 ? sum / float(places) : 0.0;
 }

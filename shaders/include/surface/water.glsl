@@ -76,14 +76,14 @@ void add_lights(inout Reach r, uvec2 pixel, float z, LitPoint at) {
   Cluster list = lights_at(pixel, z);
   WayStart start = layer_start(at);
   vec3 mirror = reflect(-at.to_eye, at.shading_normal);
-  for (uint i = 0u; i < list.count; ++i) {
+  for (uint i = 0u; i < list.count;) {
     Light light = frame_light(light_index(list, i));
     Arrival a = arrive(light, at.p, at.n, mirror, at.gloss.alpha);
-    if (a.facing <= 0.0) continue;
-    vec3 arrives = light.intensity * left_by_panes(light, at.p);
-    if (kLightsShadows != 0u) arrives *= traced_visibility(start, light);
+    vec3 arrives = a.facing > 0.0 ? light.intensity * left_by_panes(light, at.p) : vec3(0.0);
+    if (kLightsShadows != 0u && a.facing > 0.0) arrives *= traced_visibility(start, light);
     r.light += arrives * a.facing;
     r.mirrored += glitter(arrives * a.mirrored, a.to_mirrored, at.shading_normal, at.to_eye, at.gloss);
+    if (++i == list.count) break;
   }
 }
 
