@@ -4,13 +4,16 @@
 
 const float kNever = 1e30;
 
-// Edge of the largest cube about a voxel that is known to be empty, 64, 8 or 4; else 1, and whether the voxel is opaque.
-int empty_about(VoxelGrid grid, ivec3 voxel, out bool opaque) {
+// Size of the largest box about a voxel that is known to be empty: a chunk, a brick, an octant, a word or eight of its voxels; else that of the
+// voxel, and whether it is opaque.
+ivec3 empty_about(VoxelGrid grid, ivec3 voxel, out bool opaque) {
   AxisPart part = voxel_part(grid, voxel);
-  uint entry = brick_entry(grid, part);
+  uint entry = brick_entry(grid, part), word = brick_word(entry, part.word);
   bool octant = ((entry >> 24) & (1u << octant_of(voxel))) != 0u;
-  opaque = octant && ((brick_word(entry, part.word) >> part.bit) & 1u) != 0u;
-  return octant ? 1 : entry == kChunkEmpty ? 64 : (entry >> 24) == 0u ? 8 : 4;
+  opaque = octant && ((word >> part.bit) & 1u) != 0u;
+  uint eight = 0x330033u << uint((voxel.z & 2) + ((voxel.x & 2) << 2));
+  ivec3 in_octant = word == 0u ? ivec3(4, 2, 4) : ivec3((word & eight) == 0u ? 2 : 1);
+  return octant ? in_octant : ivec3(entry == kChunkEmpty ? 64 : (entry >> 24) == 0u ? 8 : 4);
 }
 
 // What a march meets.
@@ -23,7 +26,7 @@ struct Marched {
 // The first opaque voxel, other than the spared one, on the way from one point to another. Voxels are half open, as
 // docs/conventions.md has them. The way goes from voxel to voxel through one face at a time, at an edge through the one whose
 // axis comes first, whatever rounding does to where: nothing gets between two opaque voxels that share an edge, nor through a wall.
-// (J. Amanatides and A. Woo, A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987; over empty cubes at one step.)
+// (J. Amanatides and A. Woo, A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987; over empty boxes at one step.)
 // @param from, to in voxels. @param voxel the one the way begins in, which may differ from floor(from) by rounding.
 Marched march(VoxelGrid grid, vec3 from, ivec3 voxel, vec3 to, ivec3 spared) {
   vec3 way = to - from;
@@ -51,19 +54,19 @@ Marched march(VoxelGrid grid, vec3 from, ivec3 voxel, vec3 to, ivec3 spared) {
   ivec3 across = end - low;
   for (int left = across.x + across.y + across.z + 64; left > 0; --left) {
     bool opaque;
-    int edge = empty_about(grid, voxel, opaque);
+    ivec3 size = empty_about(grid, voxel, opaque);
     if (opaque && voxel != spared) return Marched(true, m.share, m.face);
-    ivec3 cube = voxel & ~(edge - 1);
-    vec3 plane = vec3(cube + mix(ivec3(0), ivec3(edge), up));
+    ivec3 box = voxel & ~(size - 1);
+    vec3 plane = vec3(box + mix(ivec3(0), size, up));
     // Only planes before the end, which rounding does not decide.
     bvec3 before = mix(greaterThan(plane, to), lessThan(plane, to), up);
     vec3 next = mix(vec3(kNever), (plane - from) * per_way + never, before);
     float t = min(next.x, min(next.y, next.z));
     if (t >= kNever) return none;
-    // Rounding must not take the point out of the cube it leaves, nor into another one than that behind the face it crosses.
-    ivec3 at = clamp(ivec3(floor(from + way * t)), cube, cube + edge - 1);
+    // Rounding must not take the point out of the box it leaves, nor into another one than that behind the face it crosses.
+    ivec3 at = clamp(ivec3(floor(from + way * t)), box, box + size - 1);
     bvec3 through = bvec3(next.x == t, next.x != t && next.y == t, next.x != t && next.y != t);
-    voxel = mix(at, cube + mix(ivec3(-1), ivec3(edge), up), through);
+    voxel = mix(at, box + mix(ivec3(-1), size, up), through);
     m.share = t;
     m.face = through.x ? facing.x : through.y ? facing.y : facing.z;
     if (any(lessThan(voxel, low)) || any(greaterThanEqual(voxel, end))) return none;
