@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <memory>
+#include <utility>
 
 #include "engine/gpu/device/device.h"
 #include "engine/gpu/program/pipeline.h"
@@ -14,9 +16,12 @@ namespace skerry::game {
 struct SceneCache {
   static constexpr std::size_t kLightBytes = std::size_t{256} << 20;
 
-  explicit SceneCache(gpu::Device& device) : pipelines(device) {}
+  /// @param known light of another cache, to hand on light alone.
+  explicit SceneCache(gpu::Device& device, std::shared_ptr<world::LightCache> known =
+                                               std::make_shared<world::LightCache>(kLightBytes))
+      : pipelines(device), light(std::move(known)) {}
   gpu::Pipelines pipelines;
-  world::LightCache light{kLightBytes};
+  const std::shared_ptr<world::LightCache> light;
 };
 
 }  // namespace skerry::game

@@ -338,8 +338,8 @@ Result<void> SceneView::follow_settings() {
     light_threads_ =
         std::make_unique<WorkerThreads>(jobs_->threads(), WorkerThreads::Priority::kLowered);
   if (light)
-    island_light_ =
-        std::make_unique<IslandLight>(*light_threads_, finds, cache_ ? &cache_->light : nullptr);
+    island_light_ = std::make_unique<IslandLight>(*light_threads_, finds,
+                                                  cache_ ? cache_->light.get() : nullptr);
   weak_lamps_kept_ = full;
   streamer_ =
       std::make_unique<world::Streamer>(*world_, *jobs_, world::StreamOf::kMeshesAndOccupancy);

@@ -17,8 +17,9 @@ TEST_F(LeftOutOnGpu, AFeatureThatASceneLacksIsAskedNothingFor) {
   const Result<std::vector<LackingScene>> scenes = lacking_scenes();
   ASSERT_TRUE(scenes) << scenes.error().message;
   std::size_t features = 0;
+  const auto light = std::make_shared<world::LightCache>(game::SceneCache::kLightBytes);
   for (const LackingScene& lacking : *scenes) {
-    const Result<LeftOutRow> row = measure_left_out(device(), lacking, 0);
+    const Result<LeftOutRow> row = measure_left_out(device(), lacking, 0, light);
     ASSERT_TRUE(row) << lacking.feature << ": " << row.error().message;
     EXPECT_FALSE(row->why.empty()) << "the scene has " << lacking.feature;
     EXPECT_NE(row->why, "named in leave.out");
@@ -42,7 +43,8 @@ TEST_F(LeftOutOnGpu, WhatASceneHasIsMissedWhenLeftOut) {
   ASSERT_EQ(noon.feature, "moon");
   noon.feature = "sun";
   noon.setting = "leave.out=sun";
-  const Result<LeftOutRow> row = measure_left_out(device(), noon, 1);
+  const auto light = std::make_shared<world::LightCache>(game::SceneCache::kLightBytes);
+  const Result<LeftOutRow> row = measure_left_out(device(), noon, 1, light);
   ASSERT_TRUE(row) << row.error().message;
   EXPECT_TRUE(row->why.empty());
   EXPECT_FALSE(row->same_picture);

@@ -62,15 +62,15 @@ TEST_F(SceneCacheFrames, PicturesAreThoseOfAViewThatSharesNothing) {
 
   SceneCache cache(device());
   EXPECT_TRUE(draw(first, &cache) == first_alone);
-  EXPECT_EQ(cache.light.stats().found, 0u);
-  const std::size_t of_first = cache.light.stats().missed;
+  EXPECT_EQ(cache.light->stats().found, 0u);
+  const std::size_t of_first = cache.light->stats().missed;
   ASSERT_GT(of_first, 0u);
   EXPECT_TRUE(draw(second, &cache) == second_alone);
   EXPECT_TRUE(draw(turned, &cache) == turned_alone);
-  const world::LightCache::Stats before = cache.light.stats();
+  const world::LightCache::Stats before = cache.light->stats();
   EXPECT_TRUE(draw(first, &cache) == first_alone);
-  EXPECT_EQ(cache.light.stats().missed, before.missed);
-  EXPECT_EQ(cache.light.stats().found, before.found + of_first);
+  EXPECT_EQ(cache.light->stats().missed, before.missed);
+  EXPECT_EQ(cache.light->stats().found, before.found + of_first);
 }
 
 TEST_F(SceneCacheFrames, AnEditIsSeen) {
@@ -87,10 +87,10 @@ TEST_F(SceneCacheFrames, AnEditIsSeen) {
   {
     const auto view = open(scene("1"), &cache);
     EXPECT_TRUE(draw(device(), *view) == open_alone);
-    const std::size_t missed = cache.light.stats().missed;
+    const std::size_t missed = cache.light->stats().missed;
     add_roof(*view);
     EXPECT_TRUE(draw(device(), *view) == roofed_alone);
-    EXPECT_GT(cache.light.stats().missed, missed);
+    EXPECT_GT(cache.light->stats().missed, missed);
   }
   EXPECT_TRUE(draw(scene("1"), &cache) == open_alone);
 }

@@ -35,13 +35,14 @@ game::SceneText with(const char* setting, game::SceneText text) {
 
 /// A renderer that has drawn its scene once.
 struct Side {
+  std::unique_ptr<game::SceneCache> cache;  // none: all was made from nothing
   std::unique_ptr<SceneDrawer> drawer;
   Drawn first;
   std::vector<double> ms, start_ms;
   LeftOutSide numbers() const;
 };
 
-constexpr int kStarts = 3;
+constexpr int kMostStarts = 3;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -54,13 +55,19 @@ LeftOutSide Side::numbers() const {
           median(ms), median(start_ms)};
 }
 
-Result<Side> draw_once(gpu::Device& device, const game::SceneOptions& scene) {
+using Light = std::shared_ptr<world::LightCache>;
+
+/// @param light handed on from renderer to renderer, each of which makes its own programs; null:
+/// not.
+Result<Side> draw_once(gpu::Device& device, const game::SceneOptions& scene, const Light& light) {
   // What other renderers have retired must not count.
   device.run_now([](VkCommandBuffer) {});
   device.collect();
   const std::uint64_t others = device.memory_total();
   Side side;
-  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene);
+  if (light) side.cache = std::make_unique<game::SceneCache>(device, light);
+  Result<std::unique_ptr<SceneDrawer>> drawer =
+      SceneDrawer::create(device, scene, side.cache.get());
   if (!drawer) return drawer.error();
   side.drawer = *std::move(drawer);
   Result<Drawn> first = side.drawer->draw();
@@ -79,7 +86,7 @@ Result<void> time_once(Side& side) {
 
 Result<void> start_once(gpu::Device& device, const game::SceneOptions& scene, Side& side) {
   const auto begin = std::chrono::steady_clock::now();
-  if (Result<Side> started = draw_once(device, scene); !started) return started.error();
+  if (Result<Side> started = draw_once(device, scene, nullptr); !started) return started.error();
   side.start_ms.push_back(
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
   return {};
@@ -124,19 +131,20 @@ bool LeftOutRow::same_counts() const {
          as_is.memory_bytes == without.memory_bytes;
 }
 
-Result<LeftOutRow> measure_left_out(gpu::Device& device, const LackingScene& lacking, int frames) {
+Result<LeftOutRow> measure_left_out(gpu::Device& device, const LackingScene& lacking, int frames,
+                                    const std::shared_ptr<world::LightCache>& light) {
   game::SceneOptions without = lacking.scene;
   if (Result<void> ok = game::apply_setting(lacking.setting, without.settings); !ok)
     return ok.error();
-  Result<Side> a = draw_once(device, lacking.scene);
+  Result<Side> a = draw_once(device, lacking.scene, light);
   if (!a) return a.error();
-  Result<Side> b = draw_once(device, without);
+  Result<Side> b = draw_once(device, without, light);
   if (!b) return b.error();
   for (int i = 0; i < frames; ++i) {
     for (Side* side : {&*a, &*b})
       if (Result<void> ok = time_once(*side); !ok) return ok.error();
   }
-  for (int i = 0; frames > 0 && i < kStarts; ++i) {
+  for (int i = 0; i < std::min(frames, kMostStarts); ++i) {
     if (Result<void> ok = start_once(device, lacking.scene, *a); !ok) return ok.error();
     if (Result<void> ok = start_once(device, without, *b); !ok) return ok.error();
   }

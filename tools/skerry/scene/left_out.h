@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,12 @@ struct LeftOutRow {
   bool same_counts() const;
 };
 
-/// @param frames timed with each renderer, in turns; 0: none.
+/// @param frames timed with each renderer, in turns, and as many starts, but three at most; 0:
+/// none.
+/// @param light of islands, handed on from call to call, but not to starts that are timed; null:
+/// found anew. It is found by the CPU: no count knows of it.
 /// Errors: the scene cannot be drawn on this device.
-Result<LeftOutRow> measure_left_out(gpu::Device& device, const LackingScene& lacking, int frames);
+Result<LeftOutRow> measure_left_out(gpu::Device& device, const LackingScene& lacking, int frames,
+                                    const std::shared_ptr<world::LightCache>& light = nullptr);
 
 }  // namespace skerry::tools
