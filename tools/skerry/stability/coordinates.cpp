@@ -26,7 +26,7 @@ game::SceneOptions scene_at(const Offset& offset) {
 
 /// Whether the sun lights the ground before the feet at noon: a quarter of the lowest rows of a
 /// picture without any other light.
-Result<bool> sun_lights_ground(gpu::Device& device) {
+Result<bool> sun_lights_ground(gpu::Device& device, game::SceneCache& cache) {
   game::SceneOptions scene = scene_at({});
   render::RenderSettings& settings = scene.settings.render;
   settings = without_sky_light(settings);
@@ -34,7 +34,7 @@ Result<bool> sun_lights_ground(gpu::Device& device) {
        {render::Feature::kMoon, render::Feature::kLights, render::Feature::kWater})
     settings.leave_out.add(other);
   scene.time_of_day_s = 12 * 3600;
-  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene);
+  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene, &cache);
   if (!drawer) return drawer.error();
   const Result<Drawn> drawn = (*drawer)->draw();
   if (!drawn) return drawn.error();
@@ -50,9 +50,10 @@ Result<bool> sun_lights_ground(gpu::Device& device) {
 
 /// A picture of the seed's spawn in a world that is moved by `offset`, by day and by moonlight.
 Result<std::vector<std::vector<std::uint8_t>>> pictures_at(gpu::Device& device,
+                                                           game::SceneCache& cache,
                                                            const Offset& offset) {
   const game::SceneOptions scene = scene_at(offset);
-  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene);
+  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene, &cache);
   if (!drawer) return drawer.error();
   game::SceneView& view = (*drawer)->view();
   std::vector<std::vector<std::uint8_t>> out;
@@ -67,9 +68,10 @@ Result<std::vector<std::vector<std::uint8_t>>> pictures_at(gpu::Device& device,
 }
 
 Result<Rows> far_away(gpu::Device& device) {
-  const auto shown = sun_lights_ground(device);
+  game::SceneCache cache(device);  // light is found in an island's lattice, wherever that is
+  const auto shown = sun_lights_ground(device, cache);
   if (!shown) return shown.error();
-  const auto at_origin = pictures_at(device, {});
+  const auto at_origin = pictures_at(device, cache, {});
   if (!at_origin) return at_origin.error();
   constexpr std::int64_t k24 = std::int64_t{1} << 24, k40 = std::int64_t{1} << 40;
   const std::array<std::pair<const char*, Offset>, 5> places{
@@ -80,7 +82,7 @@ Result<Rows> far_away(gpu::Device& device) {
        {"2^40, -3, -2^40", {k40, -3, -k40}}}};
   Rows rows;
   for (const auto& [name, offset] : places) {
-    const auto moved = pictures_at(device, offset);
+    const auto moved = pictures_at(device, cache, offset);
     if (!moved) return moved.error();
     double different = 0.0;
     for (std::size_t i = 0; i < moved->size(); ++i)
@@ -93,10 +95,12 @@ Result<Rows> far_away(gpu::Device& device) {
 }
 
 /// Pictures from a camera that moves by `step` blocks a frame.
-Result<std::vector<std::vector<std::uint8_t>>> sequence(gpu::Device& device, const Offset& offset,
-                                                        double step, int frames) {
+Result<std::vector<std::vector<std::uint8_t>>> sequence(gpu::Device& device,
+                                                        game::SceneCache& cache,
+                                                        const Offset& offset, double step,
+                                                        int frames) {
   const game::SceneOptions scene = scene_at(offset);
-  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene);
+  Result<std::unique_ptr<SceneDrawer>> drawer = SceneDrawer::create(device, scene, &cache);
   if (!drawer) return drawer.error();
   game::SceneView& view = (*drawer)->view();
   std::vector<std::vector<std::uint8_t>> out;
@@ -119,15 +123,16 @@ Result<std::vector<std::vector<std::uint8_t>>> sequence(gpu::Device& device, con
 }
 
 Result<Rows> jitter(gpu::Device& device) {
-  const auto shown = sun_lights_ground(device);
+  game::SceneCache cache(device);  // light is found in an island's lattice, wherever that is
+  const auto shown = sun_lights_ground(device, cache);
   if (!shown) return shown.error();
   constexpr std::int64_t k40 = std::int64_t{1} << 40;
   constexpr int kFrames = 32;
   Rows rows;
   for (const double step : {0.001, 1.0 / static_cast<double>(world::kUnitsPerBlock)}) {
-    const auto near = sequence(device, {}, step, kFrames);
+    const auto near = sequence(device, cache, {}, step, kFrames);
     if (!near) return near.error();
-    const auto far = sequence(device, {k40, -k40, k40}, step, kFrames);
+    const auto far = sequence(device, cache, {k40, -k40, k40}, step, kFrames);
     if (!far) return far.error();
     double different = 0.0;
     for (std::size_t i = 0; i < near->size(); ++i)
