@@ -98,7 +98,7 @@ def check_archive(run, folder):
 def check_report(run, folder):
     out = folder / "report"
     run("report", "water_layers", "lights_oracle", "--size", "24x16", "--set",
-        "reference.samples=1", "--out", out)
+        "reference.samples=1", "--set", "view.distance=48", "--out", out)
     check_page(out, 2)
 
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Runs `plan`, `run` and `merge` of `skerry test`, `report` and `stability`, ends them at random.
 
-    farm_test.py SKERRY_PROGRAM FOLDER [KILLS]      FOLDER is made anew; 6 kills in long runs, else 2
+    farm_test.py SKERRY_PROGRAM FOLDER [KILLS]      FOLDER is made anew; 6 kills in long runs, else 2,
+                                                    and fewer scenes
 
 However the tasks of a plan are split over folders, what is merged has the same bytes; a run that
 is killed loses no row and doubles none; what is missing, contradicts itself, or comes from another
@@ -21,7 +22,7 @@ from commands_test import SKY, Runs, check
 ROWS = 10_000
 MERGE_SECONDS = 3.0
 LONG = "SKERRY_LONG_TESTS" in os.environ
-SCENES = {f"sky_{hour:02}": {"time": f"{hour}:00"} for hour in range(8, 17)}
+SCENES = {f"sky_{hour:02}": {"time": f"{hour}:00"} for hour in range(8, 17 if LONG else 14)}
 
 
 def rows_of(folder):
@@ -285,7 +286,8 @@ def main(program, folder, kills="6" if LONG else "2"):
     check_farm(work)
     check_many(work)
 
-    cases = ["projection.near_and_far", "media.slab", "exposure.steps", "time.islands"]
+    cases = ["projection.near_and_far", "projection.fields_of_view", "exposure.steps",
+             "time.islands"]
     (folder / "stability").mkdir()
     work = Work(run, folder / "stability", "stability", cases, {"--json": "rows.json"})
     work.check_splits()
@@ -296,7 +298,7 @@ def main(program, folder, kills="6" if LONG else "2"):
 
     (folder / "report").mkdir()
     arguments = ["bloom_levels", "lights_oracle", "--size", "24x16", "--set",
-                 "reference.samples=1"]
+                 "reference.samples=1", "--set", "view.distance=48"]
     work = Work(run, folder / "report", "report", arguments, {"--out": "page"})
     work.check_splits()
     work.check_faults()
