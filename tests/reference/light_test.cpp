@@ -172,6 +172,37 @@ TEST(ReferenceLight, APlantReflectsNoLightOfTheLampInItsOwnVoxel) {
   EXPECT_GT(reflected({0.5, 1.05, 0.5}), 0.0);
 }
 
+// Seen itself it sends what it emits, and nothing of that lamp's light besides. A torch emits in
+// part: its flame lights its stick.
+TEST(ReferenceLight, APlantThatIsSeenReflectsNoLightOfTheLampThatItIs) {
+  const auto seen = [](world::BlockId plant, std::vector<Light> lights) {
+    Scene scene =
+        seen_from({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {single_block(plant, {1.5, 0.0, 0.0})});
+    scene.bounces = 0;
+    scene.lights = std::move(lights);
+    const Tracer tracer(scene.islands);
+    const Shader shader(scene, tracer);
+    double sum = 0.0;
+    Trace trace;
+    for (std::uint32_t i = 0; i < 400; ++i) {
+      const glm::dvec3 to(1.5, 0.05 * (i % 20) - 0.475, 0.05 * (i / 20) - 0.475);
+      const glm::dvec3 direction = glm::normalize(to);
+      tracer.trace(glm::dvec3(0.0), direction, trace);
+      Sampler sampler(1, 2, i);
+      sum += shader.look(trace, direction, direction, sampler).radiance.x;
+    }
+    return sum;
+  };
+  const auto lamp = [](double height) {
+    return std::vector<Light>{{.position = {1.5, height, 0.0}, .intensity = glm::dvec3(1.0)}};
+  };
+  const double emitted = seen(world::block::kGlowFern, {});
+  EXPECT_GT(emitted, 0.0);
+  EXPECT_EQ(seen(world::block::kGlowFern, lamp(0.0)), emitted);
+  EXPECT_GT(seen(world::block::kGlowFern, lamp(1.0)), emitted);
+  EXPECT_GT(seen(world::block::kTorch, lamp(0.4)), seen(world::block::kTorch, {}));
+}
+
 // Under a sky of radiance 1 an open plane receives pi; at the foot of a wall without end half of
 // that comes from the sky, and the wall sends back rho times its own half.
 TEST(ReferenceLight, AWallOfAlbedoRhoGivesBackItsHalfOfTheSky) {

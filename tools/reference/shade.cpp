@@ -75,6 +75,11 @@ double through_water_surface(world::BlockId from, world::BlockId into) {
   return after ? 1.0 / kSquare : kSquare;
 }
 
+/// Not in part, as a torch does, whose flame lights its stick.
+bool glows_all_over(const world::BlockType& type) {
+  return type.emission > 0.0f && type.glows_from == 0.0f;
+}
+
 }  // namespace
 
 /// The surface of level water through which a ray leaves it; null: none before what it hits.
@@ -154,7 +159,11 @@ void Shader::arrive(const Receiver& at, Sampler& sampler, Take&& take) const {
     take(Arrival{way.to_light,
                  body.irradiance * way.share * past_clouds(at.point, to_light, sampler), nullptr});
   }
+  const bool glows = at.plant && glows_all_over(world::block_types()[at.plant->block]);
   lights_.reaching(at.point, [&](const Light& light) {
+    // What such a plant emits is that lamp, a point among its planes, near which light has no
+    // bound.
+    if (glows && is_in(light.position, *at.plant)) return;
     const std::optional<LightRay> ray = sample_light(light, at.point, sampler);
     if (!ray || glm::dot(at.normal, ray->to_light) <= 0.0) return;
     const bool placed = light.kind != shared::kLightDirectional;
