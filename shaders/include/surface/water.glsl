@@ -101,12 +101,26 @@ FaceSky sky_about(vec3 p, uint word) {
   return sky_of_face(p, word);
 }
 
+// A surface of a pixel.
+struct Layer {
+  uint k, word;  // word 0: there is none
+  float t;       // of the surface along the view axis
+  vec3 n;        // its normal
+};
+
+Layer layer_at(uint k, uvec2 pixel) {
+  uint word = k < kWaterLayers ? layer_surface(k, ivec2(pixel)) : 0u;
+  float t = view_distance(word != 0u ? layer_depth(k, ivec2(pixel)) : 1.0, frame.near_plane);
+  return Layer(k, word, t, world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word))));
+}
+
 // What the nearest surface of a pixel mirrors of the world. Once a pixel: a march for each layer would cost as much again.
 // @param outwards the ray to follow instead: what looks_out() gives. 0: none. @param shown of bend_rays.comp, which may have found it in the picture.
 Mirrored mirrored_by_nearest(uvec2 pixel, vec3 ray, vec3 to_eye, vec3 outwards, vec4 shown) {
-  uint word = layer_surface(0u, ivec2(pixel));
-  float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
-  vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
+  Layer first = layer_at(0u, pixel);
+  uint word = first.word;
+  float t = first.t;
+  vec3 n = first.n;
   vec3 dir = mirrored_ray(to_eye, shading_normal(word, ray, t), n);
   LitPoint at = LitPoint(ray * t, n, n, to_eye, Gloss(1.0, 0.0), word, no_depth());
   if (kBent == kBentIntoAir && outwards != vec3(0.0)) {
@@ -140,9 +154,10 @@ vec3 seen_above(vec3 dir, Mirrored met, bool clouds, uvec2 pixel) {
 // @param way of bend_rays.comp: 0 where the picture shows nothing.
 vec3 looks_out(uvec2 pixel, vec3 ray, float way) {
   if (kBent != kBentIntoAir || !(kMirrorWorld || (kIndirect != kIndirectOff && frame.medium_surface != 0u))) return vec3(0.0);
-  uint word = layer_surface(0u, ivec2(pixel));
-  float t = word != 0u ? view_distance(layer_depth(0u, ivec2(pixel)), frame.near_plane) : 1.0;
-  vec3 n = world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word)));
+  Layer first = layer_at(0u, pixel);
+  uint word = first.word;
+  float t = first.t;
+  vec3 n = first.n;
   vec3 bent = bent_into_air(normalize(ray), shading_normal(word, ray, t), n);
   const uint next = min(kWaterLayers - 1u, 1u);
   uint second = layer_surface(next, ivec2(pixel));
@@ -157,19 +172,6 @@ vec3 mirrored_inside(Material m, vec3 light_in, bool known, Mirrored nearest) {
   bool met = known && !nearest.sky;
   float way = met ? nearest.distance : 1e3;
   return scattered(m, light_in, way) + (met ? exp(-extinction(m) * way) * nearest.radiance : vec3(0.0));
-}
-
-// A surface of a pixel.
-struct Layer {
-  uint k, word;  // word 0: there is none
-  float t;       // of the surface along the view axis
-  vec3 n;        // its normal
-};
-
-Layer layer_at(uint k, uvec2 pixel) {
-  uint word = k < kWaterLayers ? layer_surface(k, ivec2(pixel)) : 0u;
-  float t = view_distance(word != 0u ? layer_depth(k, ivec2(pixel)) : 1.0, frame.near_plane);
-  return Layer(k, word, t, world_from_lattice_vector(island_at(surface_island(word)), face_normal(surface_face(word))));
 }
 
 // The first from layer k on that is not the same surface as the one before it, of a word at t.
