@@ -246,8 +246,9 @@ bool Shader::is_in(glm::dvec3 point, const Meeting& hit) const {
 }
 
 /// Radiance that a surface sends back of the light that arrives there. Its own light is left out:
-/// it arrives as that of a lamp, and a glowing plant does not reflect that of the lamp that stands
-/// for it, a point among its planes. Long ways end by lot, as likely as the surface swallows light.
+/// it arrives as that of a lamp, and no plant, not even a torch, reflects that of the lamp among
+/// its planes, near which light has no bound. Long ways end by lot, as likely as the surface
+/// swallows light.
 glm::dvec3 Shader::bounced(const Meeting& hit, glm::dvec3 point, int bounces,
                            Sampler& sampler) const {
   constexpr int kSurely = 4;  // bounces

@@ -1,5 +1,5 @@
 // Light of a pixel's lights, past the walls that stand before them. Needs before the include: frame_light(index), light_index(list, i), lights.glsl,
-// traced.glsl, left_by_panes(light, position), kOracle; `list.count` lights are asked.
+// traced.glsl, left_by_panes(light, position), kOracle; `list.count` lights are asked. Loops are left at their end: docs/lavapipe.md.
 #ifndef SKERRY_BLOCKED_LIGHTS_GLSL
 #define SKERRY_BLOCKED_LIGHTS_GLSL
 

@@ -104,7 +104,7 @@ WayStart way_start(Surface s, uint word) {
 // In the open, on no island.
 WayStart way_from(vec3 p) { return WayStart(p, vec3(0.0), ~0u, ivec3(0), vec3(0.0)); }
 
-// Whether nothing opaque stands between a surface and a point of a light.
+// Whether nothing opaque stands between a surface and a point of a light. Here and below loops are left at their end: docs/lavapipe.md.
 bool way_is_open(WayStart start, Light light, vec3 to, vec3 light_middle) {
   bool open = true;
   for (uint i = 0u; light.island_count > 0u;) {
