@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-// Which lights reach what, in six steps. Depths: those that each tile of 8x8 pixels shows, opaque and translucent. Clusters: those that show
+// Which lights reach what, in five steps. Depths: those that each tile of 8x8 pixels shows, opaque and translucent. Clusters: those that show
 // something. Bins: of coarse bins of tiles, a bit a light; one invocation asks 32 lights about one bin and writes one word: the result has the
 // lights' order, without atomics, barriers or anything to clear. Lists of occupied clusters, twice: first each invocation counts the lights of its
 // chunk of the bin that reach the cluster, then, once there is room, it lists them in their order. Room: for each occupied cluster's list; a list
-// without room is all lights: more to ask, the same answer. Tiles: those of 8x8 pixels that some light reaches, for shade_lights. The order of
-// clusters and tiles and where a list lies depend on timing; nothing else does. docs/conventions.md.
+// without room is all lights: more to ask, the same answer. The order of clusters and where a list lies depend on timing; nothing else does.
+// docs/conventions.md.
 #include "include/frame/common.glsl"
 #include "shared/clusters.h"
 #include "shared/light.h"
@@ -33,12 +33,9 @@ layout(scalar, binding = kOccupiedClustersBinding) buffer Occupied { uint occupi
 layout(scalar, binding = kLightCountsBinding) buffer Counts { uint counts[]; };  // [slot][chunk]: of lights; becomes where the chunk's part of the list begins
 layout(scalar, binding = kClustersBinding) buffer Clusters { Cluster clusters[]; };
 layout(scalar, binding = kLightEntriesBinding) writeonly buffer Entries { uint entries[]; };
-layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatch; };
-layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint listed_tiles[]; };  // x | y << 16
 layout(push_constant) uniform Push { uint list; } push;  // of kLightLists. 0: count, 1: list
 
 layout(constant_id = kLightStepConstant) const uint kLightStep = kLightDepths;
-layout(constant_id = kOracleConstant) const bool kOracle = false;  // every light may reach every tile
 layout(constant_id = kWaterLayersConstant) const uint kWaterLayers = 0u;  // of translucent surfaces, 0..4
 
 #include "include/light/clusters.glsl"
@@ -156,22 +153,6 @@ void reserve_room() {
   }
 }
 
-void list_tiles() {
-  uvec2 count = (grid.size + kTileEdge - 1u) / kTileEdge;
-  uint tile = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationIndex;
-  if (tile >= count.x * count.y) return;
-  uvec2 at = uvec2(tile % count.x, tile / count.x);
-  uint first = cluster_of(tile_at(at * kTileEdge), 0u);
-  bool lit = false;
-  for (uint left = small_tiles[tile].slices; left != 0u && !lit; left &= left - 1u)
-    lit = kOracle || clusters[first + uint(findLSB(left))].count != 0u;
-  if (!lit) return;
-  uint slot = atomicAdd(dispatch.tiles, 1u);
-  atomicMax(dispatch.groups_x, min(slot + 1u, kTileRow));
-  if (slot % kTileRow == 0u) atomicMax(dispatch.groups_y, slot / kTileRow + 1u);
-  listed_tiles[slot] = at.x | (at.y << 16);
-}
-
 // Whether walls let a light arrive at what a cell shows, as far as that is known. Errs on the side of yes.
 bool arrives_in(uint index, vec3 middle, vec3 half_size) {
   if (index == 0u) return true;
@@ -259,8 +240,6 @@ void main() {
     fill_bin();
   else if (kLightStep == kLightLists)
     list_lights();
-  else if (kLightStep == kLightRoom)
-    reserve_room();
   else
-    list_tiles();
+    reserve_room();
 }

@@ -3,7 +3,8 @@
 #extension GL_EXT_control_flow_attributes : require
 // As classify_tiles.comp, for frames that one body lights: tiles with surfaces (list 0), with open pixels (1), and with surfaces that the body
 // does not light (2, and then not in 0). Of those each face is turned away, or all texels of the shadow maps that the filter could look at lie
-// before whatever the tile shows. Errs on the side of list 0. Tiles with water or glass are in list 3 in place of 0. docs/decisions/0062.
+// before whatever the tile shows. Errs on the side of list 0. Tiles with water or glass are in list 3 in place of 0. Those that
+// lamps reach are in lists of the same order from kLampTiles on. docs/decisions/0062.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
@@ -23,6 +24,7 @@ layout(constant_id = kUnderWaterConstant) const bool kUnderWater = false;  // as
 #include "include/scene/coverage.glsl"
 #include "include/scene/list_tiles.glsl"
 #include "include/light/visibility.glsl"
+#include "include/light/lit_tiles.glsl"
 
 const float kRounding = 1e-6;     // of depths in a map
 const float kTurnedAway = -1e-4;  // cosine, past what rounding takes from one program to the next
@@ -125,5 +127,5 @@ void main() {
   uint cascade = cascades_within(0u, kCascades, part.nearest * 0.999 * length(frame.ray_forward));
   uint end_cascade = min(cascades_within(0u, kCascades, part.farthest * most_long * 1.27) + 1u, kCascades);
   for (; sunless && faces_light && cascade < end_cascade; ++cascade) sunless = all_shaded(part, pick_cascade(0u, cascade));
-  list_tile(sunless ? 2u : in_water ? 3u : 0u, at, count);
+  list_tile((lamps_reach(at, count) ? kLampTiles : 0u) + (sunless ? 2u : in_water ? 3u : 0u), at, count);
 }

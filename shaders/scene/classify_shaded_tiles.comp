@@ -3,7 +3,8 @@
 // As classify_tiles.comp, for shading: tiles with surfaces (list 0) and with open pixels (1), and of the latter those in which a star or a disc may
 // be seen (3, and then not in 1). Where radiance is kept beside the picture for water and glass, tiles that keep it are in lists of their own (4, 5,
 // 6), since what is stored for no pixel takes lavapipe as long as what is stored for all; none keep it while no water or glass shows.
-// Where that is asked for, tiles of smooth sky alone are in lists 7 and 8, not in 1 and 5; and of tiles with surfaces the squares of 4x4 pixels are
+// Where that is asked for, tiles of smooth sky alone are in lists 7 and 8, not in 1 and 5; tiles with surfaces that
+// lamps reach are in kLampTiles, or in the list after it; and of tiles with surfaces the squares of 4x4 pixels are
 // listed: those of one plane of one block, and others with a surface.
 // docs/decisions/0030-light-at-fewer-pixels.md, docs/decisions/0047-the-picture-as-it-is-shaded.md.
 #include "include/frame/common.glsl"
@@ -29,6 +30,7 @@ layout(constant_id = kSquaresConstant) const bool kSquares = false;
 layout(constant_id = kSmoothSkyConstant) const bool kSmoothSky = false;
 
 #include "include/sky/star_cells.glsl"
+#include "include/light/lit_tiles.glsl"
 
 const float kSmoothPixels = 10.0;  // from the horizon
 const float kMostCells = 4.0;  // across a tile; where it covers more, some have stars
@@ -168,13 +170,13 @@ void main() {
     if (kStars) detailed = may_show_star(corners, pixel_angle);
     if (kDiscs) detailed = detailed || may_touch(corners, pixel_angle, sky.sun.to_body) || may_touch(corners, pixel_angle, sky.moon.to_body);
   }
-  uint first = keeps ? 4u : 0u;
-  if (covered) list_tile(first, at, count);
+  uint lit = keeps ? kLampTiles + 1u : kLampTiles, others = keeps ? 4u : 0u;
+  if (covered) list_tile(lamps_reach(at, count) ? lit : others, at, count);
   if (kSquares && covered) {
     list_squares(kPlainSquares, keeps, plain, at, count);
     list_squares(kMixedSquares, keeps, mixed, at, count);
   }
-  if (open && !detailed && !smooth_sky) list_tile(first + 1u, at, count);
+  if (open && !detailed && !smooth_sky) list_tile(keeps ? 5u : 1u, at, count);
   if (open && !detailed && smooth_sky) list_tile_of(keeps ? kSmoothSkyTiles + 1u : kSmoothSkyTiles, at, count, kSmoothSkyGroup);
   if (open && detailed) list_tile(keeps ? 6u : 3u, at, count);
 }

@@ -1,12 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Sorts 8x8-pixel tiles into those with surfaces and those with open pixels (a tile may be both), so that each shader runs where it is
-// needed only: lavapipe runs both sides of every branch, and on any device a tile's pixels then do the same. docs/conventions.md.
+// needed only: lavapipe runs both sides of every branch, and on any device a tile's pixels then do the same. Where that is asked for, tiles with
+// surfaces that lamps reach are in a list of their own. docs/conventions.md.
 #include "include/frame/common.glsl"
 #include "shared/bindings.h"
 #include "include/scene/coverage.glsl"
 #include "include/scene/layers.glsl"
 #include "include/scene/list_tiles.glsl"
+#include "include/light/lit_tiles.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -30,6 +32,6 @@ void main() {
       open = open || !here;
     }
   }
-  if (covered) list_tile(0u, at, push.tile_count);
+  if (covered) list_tile(lamps_reach(at, push.tile_count) ? kLampTiles : 0u, at, push.tile_count);
   if (open) list_tile(1u, at, push.tile_count);
 }

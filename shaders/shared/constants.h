@@ -51,7 +51,7 @@ SHARED_CONST uint kChooseConstant = 46u;          // bool: an exposure is chosen
 SHARED_CONST uint kPackConstant = 47u;            // bool: noise that is there is packed
 SHARED_CONST uint kCullStepConstant = 49u;        // uint: kCullSections to kCullHidden
 SHARED_CONST uint kMarchConstant = 48u;           // bool: clouds are marched, not blended
-SHARED_CONST uint kLightStepConstant = 50u;       // uint: kLightDepths to kLightTiles
+SHARED_CONST uint kLightStepConstant = 50u;       // uint: kLightDepths to kLightRoom
 SHARED_CONST uint kShowConstant = 51u;            // bool: the meter's histogram is drawn
 SHARED_CONST uint kFilterConstant = 52u;  // uint: kFilterAverage, kFilterShrink or kFilterSpread
 SHARED_CONST uint kToRadianceConstant = 53u;   // bool: pixels may go to an image of radiance
@@ -92,16 +92,18 @@ SHARED_CONST uint kLightClusters = 1u;
 SHARED_CONST uint kLightBins = 2u;
 SHARED_CONST uint kLightLists = 3u;
 SHARED_CONST uint kLightRoom = 4u;
-SHARED_CONST uint kLightTiles = 5u;
 
-// Of render::TileKind: tiles of a smooth sky, and of a work group; kinds of squares whose light is
-// that of a grid's points, pixels of an edge, and invocations of a work group for each kind. Each
-// is followed by the same kind of what keeps radiance.
+// Of render::TileKind: tiles of a smooth sky, and of a work group; the first kind of tiles that
+// lamps reach; kinds of squares whose light is that of a grid's points, pixels of an edge, and
+// invocations of a work group for each kind. Tiles of a smooth sky and squares are each followed
+// by the same kind of what keeps radiance.
 SHARED_CONST uint kSmoothSkyTiles = 7u;
 SHARED_CONST uint kSmoothSkyGroup = 64u;
-SHARED_CONST uint kPlainSquares = 9u;
-SHARED_CONST uint kMixedSquares = 11u;
-SHARED_CONST uint kTileKinds = 9u;  // that are no squares
+SHARED_CONST uint kLampTiles = 9u;
+SHARED_CONST uint kPlainSquares = 13u;
+SHARED_CONST uint kMixedSquares = 15u;
+SHARED_CONST uint kTileKinds = 13u;  // that are no squares
+SHARED_CONST uint kListKinds = 17u;
 SHARED_CONST uint kSquareEdge = 4u;
 SHARED_CONST uint kPlainGroup = 64u;  // one a square
 SHARED_CONST uint kMixedGroup = 16u;  // one a row of a square

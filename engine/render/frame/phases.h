@@ -62,7 +62,6 @@ class Shaded {
 
  private:
   friend struct ShadePass;
-  friend struct LightPass;
   friend struct TranslucentPass;
   friend struct CloudPass;
   friend struct FaultPass;

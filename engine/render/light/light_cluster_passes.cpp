@@ -69,12 +69,10 @@ struct Lists {
         occupied(unused),
         counts(unused),
         clusters(unused),
-        entries(unused),
-        dispatches(unused),
-        listed(unused) {}
+        entries(unused) {}
 
   gpu::BufferRef small_tiles, tiles;  ///< shared::TileDepths
-  gpu::BufferRef bins, work, occupied, counts, clusters, entries, dispatches, listed;
+  gpu::BufferRef bins, work, occupied, counts, clusters, entries;
 
   auto bindings() const {
     return std::tuple{gpu::storage<shared::kTileDepthsBinding>(small_tiles),
@@ -84,9 +82,7 @@ struct Lists {
                       gpu::storage<shared::kOccupiedClustersBinding>(occupied),
                       gpu::storage<shared::kLightCountsBinding>(counts),
                       gpu::storage<shared::kClustersBinding>(clusters),
-                      gpu::storage<shared::kLightEntriesBinding>(entries),
-                      gpu::storage<shared::kTileDispatchesBinding>(dispatches),
-                      gpu::storage<shared::kTilesBinding>(listed)};
+                      gpu::storage<shared::kLightEntriesBinding>(entries)};
   }
 };
 
@@ -233,39 +229,6 @@ void add_assign(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, bool list, Bu
 /// What lights of most views need, so that their counts are not outgrown by each that comes.
 constexpr std::uint32_t kUsualChunks = 8;
 
-void add_list_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
-                    const shared::ClusterGrid& grid, Buffers& b, ClusteredLights& out) {
-  graph.add_pass(
-      "list_light_tiles_clear",
-      [&](gpu::PassBuilder& p) {
-        out.tiles.dispatches = p.write(out.tiles.dispatches, Use::kTransferWrite);
-      },
-      [dispatches = out.tiles.dispatches](gpu::Commands& c) {
-        fill_dispatch(c, dispatches, 2 * sizeof(shared::TileDispatch), 1);
-      });
-  Lists lists(out.tiles.lists);
-  lists.small_tiles = b.small_tiles;
-  if (!out.oracle) lists.clusters = out.clusters;
-  lists.dispatches = out.tiles.dispatches;
-  std::vector<gpu::SpecConstant> constants;
-  if (out.oracle) constants.push_back({shared::kOracleConstant, 1});
-  graph.add_pass(
-      "list_light_tiles",
-      [&](gpu::PassBuilder& p) {
-        b.in.declare(p);
-        b.small_tiles = p.write(b.small_tiles, Use::kComputeWrite);
-        if (!out.oracle) out.clusters = p.write(out.clusters, Use::kComputeWrite);
-        out.tiles.dispatches = p.write(out.tiles.dispatches, Use::kComputeWrite);
-        out.tiles.lists = p.write(out.tiles.lists, Use::kComputeWrite);
-      },
-      [in = b.in, lists, count = small_tile_count(grid),
-       program =
-           program_of(pipelines, shared::kLightTiles, std::move(constants))](gpu::Commands& c) {
-        gpu::bind(c, program, in.bindings(), lists.bindings(), gpu::constants(0u));
-        dispatch_items(c, count);
-      });
-}
-
 }  // namespace
 
 ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
@@ -283,31 +246,28 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
   out.grid = graph.import(grid_buffer_);
   out.lights = graph.import(lights_);
   out.reaches = reaches_ ? graph.import(reaches_) : out.lights;
-  out.tiles.dispatches = create("light tile dispatches", 2 * sizeof(shared::TileDispatch));
-  out.tiles.lists = create("light tiles", std::uint64_t{small} * sizeof(std::uint32_t));
+  work_ = {};
+  if (oracle) return out;
   Buffers b;
   b.in = {out.grid, out.lights, scene.islands, out.reaches, depths, scene.point_sampler};
   b.small_tiles = create("tile depths", std::uint64_t{small} * sizeof(shared::TileDepths));
-  work_ = {};
   add_mark(graph, pipelines, grid_, b);
-  if (!oracle) {
-    b.tiles = create("cluster depths", std::uint64_t{tiles} * sizeof(shared::TileDepths));
-    b.work = create("cluster work", sizeof(shared::ClusterWork));
-    b.occupied = create("occupied clusters", clusters * sizeof(std::uint32_t));
-    b.counts = create("light counts",
-                      clusters * std::max(grid_.chunks, kUsualChunks) * sizeof(std::uint32_t));
-    b.bins = create("light bins", std::uint64_t{grid_.bins_x} * grid_.bins_y * grid_.light_words *
-                                      sizeof(std::uint32_t));
-    out.clusters = create("clusters", clusters * sizeof(shared::Cluster));
-    out.entries = graph.import(entries_);
-    add_list_clusters(graph, pipelines, grid_, b);
-    add_bin(graph, pipelines, grid_, out.kinds, b);
-    add_assign(graph, pipelines, false, b, out);
-    add_reserve(graph, pipelines, b, out);
-    add_assign(graph, pipelines, true, b, out);
-    work_ = b.work;
-  }
-  add_list_tiles(graph, pipelines, grid_, b, out);
+  b.tiles = create("cluster depths", std::uint64_t{tiles} * sizeof(shared::TileDepths));
+  b.work = create("cluster work", sizeof(shared::ClusterWork));
+  b.occupied = create("occupied clusters", clusters * sizeof(std::uint32_t));
+  b.counts = create("light counts",
+                    clusters * std::max(grid_.chunks, kUsualChunks) * sizeof(std::uint32_t));
+  b.bins = create("light bins", std::uint64_t{grid_.bins_x} * grid_.bins_y * grid_.light_words *
+                                    sizeof(std::uint32_t));
+  out.clusters = create("clusters", clusters * sizeof(shared::Cluster));
+  out.entries = graph.import(entries_);
+  add_list_clusters(graph, pipelines, grid_, b);
+  add_bin(graph, pipelines, grid_, out.kinds, b);
+  add_assign(graph, pipelines, false, b, out);
+  add_reserve(graph, pipelines, b, out);
+  add_assign(graph, pipelines, true, b, out);
+  work_ = b.work;
+  out.tile_depths = b.small_tiles;
   return out;
 }
 

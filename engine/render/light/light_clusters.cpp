@@ -155,6 +155,15 @@ ClusteredLights ClusteredLights::none(const SceneRefs& scene) {
   return out;
 }
 
+LampReads ClusteredLights::tiles() const {
+  return {.grid = grid,
+          // Under the oracle none is read: lights are bound in their place.
+          .clusters = oracle ? lights : clusters,
+          .depths = oracle ? lights : tile_depths,
+          .lit = true,
+          .oracle = oracle};
+}
+
 void ClusteredLights::declare_counts(gpu::PassBuilder& builder) const {
   builder.read(grid, Use::kComputeRead);
   builder.read(oracle ? lights : clusters, Use::kComputeRead);

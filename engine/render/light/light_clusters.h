@@ -52,11 +52,11 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
 /// A frame's lights, sorted: what a pass needs that includes shaders/include/light/clustered.glsl.
 struct ClusteredLights {
   gpu::BufferRef grid, reaches, clusters, entries;
-  gpu::BufferRef lights;    ///< texels of shared::Light[], then of shared::LightPane[]
-  Tiles tiles;              ///< those that some light reaches, kCovered alone
-  std::uint32_t kinds = 0;  ///< bit a kind that the frame has; 0: there are none
-  bool panes = false;       ///< some light has any
-  bool oracle = false;      ///< nothing is sorted: every pixel asks every light
+  gpu::BufferRef lights;       ///< texels of shared::Light[], then of shared::LightPane[]
+  gpu::BufferRef tile_depths;  ///< shared::TileDepths[8x8 tile]; empty under the oracle
+  std::uint32_t kinds = 0;     ///< bit a kind that the frame has; 0: there are none
+  bool panes = false;          ///< some light has any
+  bool oracle = false;         ///< nothing is sorted: every pixel asks every light
   gpu::BufferRef shafts;  ///< shared::TileShafts[8x8 tile], see ShaftPass; empty: nothing is known
 
   /// For a frame without lights: buffers that are never read.
@@ -66,6 +66,8 @@ struct ClusteredLights {
   }
   /// Of a pass that includes shaders/include/light/light_panes.glsl.
   std::vector<gpu::SpecConstant> with_panes(std::vector<gpu::SpecConstant> own) const;
+  /// For a pass that tells tiles apart that some light reaches.
+  LampReads tiles() const;
   /// Of a pass that asks only how many lights a cluster has.
   void declare_counts(gpu::PassBuilder& builder) const;
   auto count_bindings() const {

@@ -33,7 +33,6 @@ std::span<const FrameStep> frame_steps() {
       show_channel_step(),
       light_clouds_step(),
       shade_step(),
-      shade_lights_step(),
       break_shaded_step(),
       blend_clouds_behind_water_step(),
       mirror_clouds_step(),

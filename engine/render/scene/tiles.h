@@ -1,6 +1,9 @@
 #pragma once
 #include <glm/vec4.hpp>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "engine/gpu/graph/bindings.h"
 #include "engine/gpu/graph/frame_graph.h"
@@ -26,6 +29,8 @@ void dispatch_items(gpu::Commands& commands, std::uint32_t items);
 /// others.
 /// kSmoothSky: open pixels alone, without detail and far from the horizon; where that is looked
 /// for, kOpen is the others.
+/// kLampLit...: as the kinds of tiles with surfaces, those that lamps reach, where that is told
+/// apart; the latter are then the others.
 /// kPlainSquares and kMixedSquares: squares of kSquareEdge pixels of tiles in kCovered, where they
 /// are looked for, kept... such of tiles in kKeptCovered. Plain ones show one plane of one block;
 /// mixed are the others with a surface.
@@ -40,26 +45,46 @@ enum class TileKind : std::uint32_t {
   kKeptDetailed = 6,
   kSmoothSky = shared::kSmoothSkyTiles,
   kKeptSmoothSky,
+  kLampLit = shared::kLampTiles,
+  kKeptLampLit,
+  kLampLitSunless,
+  kLampLitInWater,
   kPlainSquares = shared::kPlainSquares,
   kKeptPlainSquares,
   kMixedSquares = shared::kMixedSquares,
   kKeptMixedSquares
 };
-constexpr std::uint32_t kListKinds = 13;
+
+/// What tells apart the tiles that lamps reach, for shaders/include/light/lit_tiles.glsl.
+struct LampReads {
+  gpu::BufferRef grid, clusters, depths;  ///< shared::ClusterGrid, shared::Cluster[cluster] and
+                                          ///< shared::TileDepths[tile]
+  bool lit = false;                       ///< else nothing of it is read
+  bool oracle = false;                    ///< lamps reach every tile
+
+  /// No tile is told apart.
+  static LampReads none(const SceneRefs& scene);
+  std::vector<gpu::SpecConstant> with_lamps(std::vector<gpu::SpecConstant> own) const;
+  void declare(gpu::PassBuilder& builder) const;
+  auto bindings() const {
+    return std::tuple{gpu::storage<shared::kLightGridBinding>(grid),
+                      gpu::storage<shared::kClustersBinding>(clusters),
+                      gpu::storage<shared::kTileDepthsBinding>(depths)};
+  }
+};
 
 /// 8x8-pixel tiles by what they show, as indirect dispatches of one work group a tile. A tile may
 /// be of several kinds.
 struct Tiles {
-  gpu::BufferRef dispatches;  ///< shared::TileDispatch[kind]
-  gpu::BufferRef lists;       ///< uint[kind][tile], then uint[2][square], of those that keep
-                              ///< radiance last: plain from the beginning, mixed from the end
-  bool squares = false;       ///< whether they are looked for
-  bool smooth_sky = false;    ///< whether tiles of it are
+  gpu::BufferRef lists;     ///< shared::TileDispatch[kind], uint[kind][tile], then
+                            ///< uint[2][square], of those that keep radiance last: plain from the
+                            ///< beginning, mixed from the end
+  bool squares = false;     ///< whether they are looked for
+  bool smooth_sky = false;  ///< whether tiles of it are
 
   /// What tiles.glsl declares.
   auto bindings(TileKind kind) const {
     return std::tuple{gpu::storage<shared::kTilesBinding>(lists),
-                      gpu::storage<shared::kTileDispatchesBinding>(dispatches),
                       gpu::constants(static_cast<std::uint32_t>(kind))};
   }
 };
@@ -71,6 +96,7 @@ struct Coverage {
   DepthStore kept = DepthStore::kD32;  ///< of `depth`; with 16 bits its words decide
   glm::uvec4 area;                     ///< from xy to before zw: pixels outside have none
   bool area_alone = false;             ///< tiles without a pixel of the area are not listed
+  std::optional<LampReads> lamps{};    ///< none: tiles that lamps reach are not told apart
 };
 
 /// Before tiles or pixels are listed: a shared::TileDispatch of none, at `offset` bytes.

@@ -4,6 +4,5 @@
 namespace skerry::render {
 
 FrameStep sort_lights_step();
-FrameStep shade_lights_step();
 
 }  // namespace skerry::render

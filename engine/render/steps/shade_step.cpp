@@ -1,29 +1,36 @@
 #include "engine/render/steps/shade_step.h"
 
 #include "engine/render/frame/frame_choices.h"
+#include "engine/render/light/shaft_pass.h"
 #include "engine/render/steps/reasons.h"
 #include "engine/render/surface/shade_pass.h"
 
 namespace skerry::render {
 namespace {
 
-ShadeIn shade_in(const FramePlan& plan) {
-  const FrameFeatures& features = plan.contents.features;
-  return {plan.settings.texture_taps, features.has(Feature::kStars), features.has(Feature::kDiscs),
-          plan.settings.lights_oracle, std::nullopt};
+/// The frame's lamps, with what is known of the ways to them where each is looked along.
+std::optional<ClusteredLights> lamps_of(FrameAssembly& f) {
+  if (!f.lights || f.plan.sampled()) return f.lights;
+  // Without islands that block lights no walls are looked for. A GPU would wait for each tile's
+  // one invocation; and a G-buffer that keeps normals leaves a program no room for them.
+  const RenderSettings& settings = f.plan.settings;
+  const bool shafts = f.scene.on_cpu && settings.lights_shadows == kEveryLight &&
+                      f.scene.light_islands && !settings.lights_oracle && !f.geometry->stored();
+  if (!shafts) return f.lights;
+  return ShaftPass::add(f.graph, f.pipelines, f.scene, {*f.geometry, settings}, *f.lights);
 }
 
 void shade(FrameAssembly& f) {
-  ShadeIn in = shade_in(f.plan);
-  if (f.plan.sampled())
-    in.sampled.emplace(SampledLight{f.lights_or_null(), f.plan.settings,
-                                    static_cast<std::uint32_t>(f.plan.settings.shading_rate)});
+  const FramePlan& plan = f.plan;
+  const FrameFeatures& features = plan.contents.features;
+  const std::optional<ClusteredLights> lamps = lamps_of(f);
+  const ShadeIn in{plan.settings, features.has(Feature::kStars), features.has(Feature::kDiscs),
+                   lamps ? &*lamps : nullptr, plan.sampled()};
   std::optional<ShadedFrom> from;
-  if (f.plan.geometry) from.emplace(ShadedFrom{*f.geometry, *f.shadows, f.layers, f.glass});
-  f.shaded =
-      ShadePass::add(f.graph, f.pipelines, f.scene, from ? &*from : nullptr, in,
-                     {f.plan.by_radiance, f.owners.picture.fresh(f.plan.mixes_at_rest()),
-                      meters(f.plan.input, f.plan.settings) ? &f.plan.settings.meter : nullptr});
+  if (plan.geometry) from.emplace(ShadedFrom{*f.geometry, *f.shadows, f.layers, f.glass});
+  f.shaded = ShadePass::add(f.graph, f.pipelines, f.scene, from ? &*from : nullptr, in,
+                            {plan.by_radiance, f.owners.picture.fresh(plan.mixes_at_rest()),
+                             meters(plan.input, plan.settings) ? &plan.settings.meter : nullptr});
 }
 
 }  // namespace

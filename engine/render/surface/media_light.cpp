@@ -8,7 +8,7 @@ using gpu::Use;
 
 MediaLight MediaLight::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                            const SceneRefs& scene, const In& in, const Tiles& tiles,
-                           const std::vector<OutputTiles>& covered) {
+                           const std::vector<TileKind>& covered) {
   MediaLight out;
   out.water_ = in.layers.count != 0;
   out.glass_ = static_cast<bool>(in.glass);
@@ -22,11 +22,8 @@ MediaLight MediaLight::add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   out.first_layer_ = first;
   // Glass may stand anywhere before the sun, water only where it is in view.
   const Tiles& asked = out.glass_ ? tiles : in.layers.tiles;
-  std::vector<TileKind> kinds;
-  if (out.glass_)
-    for (const OutputTiles& some : covered) kinds.push_back(some.kind);
-  else
-    kinds.push_back(TileKind::kCovered);
+  const std::vector<TileKind> kinds =
+      out.glass_ ? covered : std::vector<TileKind>{TileKind::kCovered};
   const gpu::ImageRef maps = out.glass_ ? in.glass : scene.block_textures;
   const gpu::ImageRef shadows = out.glass_ ? in.shadow_maps : scene.block_textures;
   graph.add_pass(

@@ -29,7 +29,7 @@ class MediaLight {
   };
   /// @param tiles of which those of the kinds `covered` may be asked for.
   static MediaLight add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                        const In& in, const Tiles& tiles, const std::vector<OutputTiles>& covered);
+                        const In& in, const Tiles& tiles, const std::vector<TileKind>& covered);
 
   /// Whether something may be under water.
   bool has_water() const { return water_; }

@@ -273,17 +273,18 @@ void add_shading(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& s
 
 void add_sample_passes(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
                        const SampleIn& on, const SampledLight& light, ShadeTarget& into) {
-  SKERRY_ASSERT(light.rate > 1);
-  SamplePass pass{.step = light.rate,
+  const auto rate = static_cast<std::uint32_t>(light.settings.shading_rate);
+  SKERRY_ASSERT(rate > 1);
+  SamplePass pass{.step = rate,
                   .every_pixel = false,
                   .samples = graph.create({.name = "light samples",
                                            .format = VK_FORMAT_R32G32B32A32_UINT,
-                                           .extent = points(scene.size, light.rate)}),
+                                           .extent = points(scene.size, rate)}),
                   .into = into,
                   .listed = {}};
   for (const bool every_pixel : {false, true}) {
     pass.every_pixel = every_pixel;
-    const VkExtent2D size = points(scene.size, every_pixel ? 1 : light.rate);
+    const VkExtent2D size = points(scene.size, every_pixel ? 1 : rate);
     pass.listed = graph.create(
         gpu::BufferDesc{"sample list", kDispatches + std::uint64_t{size.width} * size.height * 4, 0,
                         gpu::Memory::kDevice});

@@ -20,7 +20,6 @@ struct SampleIn {
 struct SampledLight {
   const ClusteredLights* lights;  ///< null: the frame has none
   const RenderSettings& settings;
-  std::uint32_t rate;  ///< pixels along a square of the grid, 2 to 4
 };
 
 /// Light of sun, moon and lamps on opaque surfaces, worked out at one pixel of each rate x rate and

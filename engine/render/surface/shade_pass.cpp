@@ -7,8 +7,8 @@
 
 #include "engine/gpu/graph/bindings.h"
 #include "engine/render/light/light_constants.h"
+#include "engine/render/light/wall_reads.h"
 #include "engine/render/scene/gbuffer_formats.h"
-#include "engine/render/scene/occupancy_reads.h"
 #include "engine/render/scene/tiles.h"
 #include "engine/render/surface/picture_constants.h"
 #include "shaders/shared/bindings.h"
@@ -25,7 +25,7 @@ constexpr std::uint32_t kSkyRun = 4;
 
 /// Whether a sky without detail may be that of fewer pixels.
 bool sky_may_differ(const SceneRefs& scene, const ShadeIn& in) {
-  return in.sampled && in.sampled->settings.shading_tolerance > 0.0f && !scene.panorama;
+  return in.sampled && in.settings.shading_tolerance > 0.0f && !scene.panorama;
 }
 
 /// Whether tiles that may show stars or discs are told apart from others.
@@ -51,13 +51,18 @@ std::vector<gpu::SpecConstant> constants_of_sky(const SceneRefs& scene, const Sh
 /// pixel of a program that does so anywhere. A GPU's few invocations would take longer to find
 /// them.
 bool looks_for_sunless(const SceneRefs& scene, const ShadeIn& in, const ShadedFrom& from) {
-  return scene.on_cpu && !in.sampled && !in.oracle && from.shadows.maps() &&
+  return scene.on_cpu && !in.sampled && !in.settings.lights_oracle && from.shadows.maps() &&
          !from.geometry.stored() && std::has_single_bit(scene.bodies);
+}
+
+/// Tiles that lamps reach are told apart where they have a program of their own.
+LampReads lamp_reads(const SceneRefs& scene, const ShadeIn& in) {
+  return in.lamps && !in.sampled ? in.lamps->tiles() : LampReads::none(scene);
 }
 
 /// As classify_tiles(), with kSunless and kInWater.
 Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
-                         const ShadedFrom& from) {
+                         const ShadedFrom& from, const LampReads& lamps) {
   const std::uint32_t tiles = tile_count(scene.size);
   Tiles out = create_tiles(graph, "classify_tiles_clear", tiles);
   const SurfaceReads surfaces(from.geometry);
@@ -72,22 +77,21 @@ Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
         surfaces.declare(b);
         b.read(layers, Use::kComputeSampled);
         b.read(from.shadows.maps(), Use::kComputeSampled);
-        out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
+        lamps.declare(b);
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
-      [scene, surfaces, layers, maps = from.shadows.maps(), out, tiles,
-       program = gpu::compute(
-           pipelines, programs::kClassifyLitTiles,
-           surfaces.with_depth(with_light({{shared::kUnderWaterConstant, under_water ? 1u : 0u}},
-                                          scene, true)))](gpu::Commands& c) {
+      [scene, surfaces, layers, maps = from.shadows.maps(), lamps, out, tiles,
+       program = gpu::compute(pipelines, programs::kClassifyLitTiles,
+                              lamps.with_lamps(surfaces.with_depth(
+                                  with_light({{shared::kUnderWaterConstant, under_water ? 1u : 0u}},
+                                             scene, true))))](gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::texels<shared::kIslandsBinding>(scene.islands),
                   gpu::storage<shared::kSurfacesBinding>(surfaces.words),
                   gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
                   gpu::sampled<shared::kLayerDepthsBinding>(layers, scene.point_sampler),
                   gpu::sampled<shared::kShadowMapsBinding>(maps, scene.point_sampler),
-                  gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
-                  gpu::storage<shared::kTilesBinding>(out.lists));
+                  lamps.bindings(), gpu::storage<shared::kTilesBinding>(out.lists));
         dispatch_items(c, tiles);
       });
   return out;
@@ -95,8 +99,8 @@ Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, cons
 
 /// Whether squares are told apart that one light's four points are found for at once.
 bool looks_for_squares(const ShadeIn& in) {
-  return in.sampled && in.sampled->rate == shared::kSquareEdge &&
-         in.sampled->settings.shading_tolerance > 0.0f;
+  return in.sampled && in.settings.shading_rate == static_cast<int>(shared::kSquareEdge) &&
+         in.settings.shading_tolerance > 0.0f;
 }
 
 /// As classify_tiles(), with kDetailed and with squares if they are looked for, and with kKept...
@@ -108,6 +112,7 @@ Tiles classify_shaded_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   Tiles out = create_tiles(graph, "classify_tiles_clear", tiles, looks_for_squares(in));
   out.smooth_sky = sky_may_differ(scene, in);
   const SurfaceReads surfaces(geometry);
+  const LampReads lamps = lamp_reads(scene, in);
   const bool detail = looks_for_detail(scene, in);
   // In place of what is then never read.
   const gpu::BufferRef layers = layer_tiles ? layer_tiles : scene.frame;
@@ -122,64 +127,102 @@ Tiles classify_shaded_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
         for (const gpu::BufferRef ref : {scene.frame, scene.sky, layers})
           b.read(ref, Use::kComputeRead);
         surfaces.declare(b);
-        out.dispatches = b.write(out.dispatches, Use::kComputeWrite);
+        lamps.declare(b);
         out.lists = b.write(out.lists, Use::kComputeWrite);
       },
-      [scene, layers, surfaces, out, tiles,
+      [scene, layers, surfaces, lamps, out, tiles,
        program = gpu::compute(pipelines, programs::kClassifyShadedTiles,
-                              surfaces.with_depth(std::move(constants)))](gpu::Commands& c) {
+                              lamps.with_lamps(surfaces.with_depth(std::move(constants))))](
+          gpu::Commands& c) {
         gpu::bind(c, program, gpu::storage<shared::kFrameBinding>(scene.frame),
                   gpu::storage<shared::kSkyBinding>(scene.sky),
                   gpu::storage<shared::kSurfacesBinding>(surfaces.words),
                   gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
-                  gpu::storage<shared::kLayerTilesBinding>(layers),
-                  gpu::storage<shared::kTileDispatchesBinding>(out.dispatches),
+                  gpu::storage<shared::kLayerTilesBinding>(layers), lamps.bindings(),
                   gpu::storage<shared::kTilesBinding>(out.lists));
         dispatch_items(c, tiles);
       });
   return out;
 }
 
-/// Adds surfaces, at every pixel of their tiles.
+bool is_sunless(TileKind kind) {
+  return kind == TileKind::kSunless || kind == TileKind::kLampLitSunless;
+}
+
+/// Tiles with surfaces as they are shaded at every pixel.
+/// @param lit those that lamps reach; else the others.
 /// @param some_sunless whether the tiles are of classify_lit_tiles().
-void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
-                    const ShadeIn& in, const SampleIn& on, bool some_sunless, ShadeTarget& into) {
+/// @param water whether some of these may show any.
+std::vector<OutputTiles> surface_tiles(const ShadeTarget& into, bool lit, bool some_sunless,
+                                       bool water) {
+  std::vector<OutputTiles> out = into.tiles_of(lit ? TileKind::kLampLit : TileKind::kCovered);
+  if (!some_sunless) return out;
+  out.push_back({lit ? TileKind::kLampLitSunless : TileKind::kSunless, true});
+  if (water) out.push_back({lit ? TileKind::kLampLitInWater : TileKind::kInWater, true});
+  return out;
+}
+
+/// Those of them that sun or moon may light.
+std::vector<TileKind> sunlit_tiles(const ShadeTarget& into, bool lit, bool some_sunless) {
+  std::vector<TileKind> out;
+  for (const OutputTiles& some : surface_tiles(into, lit, some_sunless, true))
+    if (!is_sunless(some.kind)) out.push_back(some.kind);
+  return out;
+}
+
+/// Surfaces at every pixel of their tiles.
+struct SurfacesIn {
+  const ShadeIn& in;
+  const SampleIn& on;
+  const ClusteredLights* lamps;  ///< of the tiles that they reach; null: of the others
+  bool some_sunless;             ///< whether the tiles are of classify_lit_tiles()
+};
+
+/// Adds surfaces. @param shader with the bindings `own` besides those of all.
+template <typename Shader, typename... Own>
+void shade_surfaces_by(const Shader& shader, const std::tuple<Own...>& own, gpu::FrameGraph& graph,
+                       gpu::Pipelines& pipelines, SceneRefs& scene, const SurfacesIn& from,
+                       ShadeTarget& into) {
+  const SampleIn& on = from.on;
+  const RenderSettings& settings = from.in.settings;
+  const ClusteredLights* const lamps = from.lamps;
+  const bool ao = scene.ao && (lamps || scene.bodies != 0);
   const Tiles& tiles = on.tiles;
   const SurfaceReads surfaces(on.geometry);
   const gpu::ImageRef maps = on.shadows.maps();
-  const OccupancyReads occupancy(scene, scene.ao && scene.bodies != 0);
+  const WallReads walls(scene, settings, ao);
   const CloudRefs clouds = clouds_before_light(scene);
-  const auto program = [&](TileKind kind, bool keep) {
-    std::vector<gpu::SpecConstant> constants =
-        with_light({{shared::kTextureTapsConstant, static_cast<std::uint32_t>(in.texture_taps)}},
-                   scene, bool{maps});
-    constants =
-        clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), bool{occupancy}));
+  const ClusteredLights lights = lamps ? *lamps : ClusteredLights::none(scene);
+  const auto program = [&](const OutputTiles& some) {
+    std::vector<gpu::SpecConstant> constants = with_light(
+        {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(settings.texture_taps)}}, scene,
+        bool{maps});
+    constants = clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), ao));
+    if (lamps) constants = walls.with_walls(lights.with_panes(std::move(constants)));
     // Nothing under water is in a sunless tile, and glass takes no light of the sky.
-    if (kind == TileKind::kSunless)
+    if (is_sunless(some.kind))
       constants.push_back({shared::kSunlessConstant, 1});
     else
-      constants =
-          on.media.with_media(std::move(constants), !some_sunless || kind == TileKind::kInWater);
-    return gpu::compute(pipelines, programs::kShadeSurfaces,
-                        into.with_output(std::move(constants), scene, keep));
+      constants = on.media.with_media(std::move(constants),
+                                      !from.some_sunless || some.kind == TileKind::kInWater ||
+                                          some.kind == TileKind::kLampLitInWater);
+    return gpu::compute(pipelines, shader,
+                        into.with_output(std::move(constants), scene, some.keep));
   };
-  auto programs = programs_of(into, TileKind::kCovered,
-                              [&](bool keep) { return program(TileKind::kCovered, keep); });
-  if (some_sunless) {
-    programs.push_back(std::pair(TileKind::kSunless, program(TileKind::kSunless, true)));
-    if (on.media.has_water())
-      programs.push_back(std::pair(TileKind::kInWater, program(TileKind::kInWater, true)));
-  }
+  std::vector<std::pair<TileKind, decltype(program(OutputTiles{}))>> programs;
+  for (const OutputTiles& some :
+       surface_tiles(into, lamps != nullptr, from.some_sunless, on.media.has_water()))
+    programs.push_back(std::pair(some.kind, program(some)));
   graph.add_pass(
-      "shade_surfaces",
+      lamps ? "shade_lights" : "shade_surfaces",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref :
              {scene.frame, scene.islands, scene.materials, scene.indirect, scene.island_skies})
           b.read(ref, Use::kComputeRead);
         declare_tiles(b, tiles);
         surfaces.declare(b);
-        occupancy.declare(b);
+        walls.declare(b);
+        lights.declare(b);
         on.media.declare(b, scene);
         clouds.declare_light(b);
         b.read(scene.block_textures, Use::kComputeSampled);
@@ -188,8 +231,8 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         into.declare(b, scene);
       },
-      [programs = std::move(programs), scene, tiles, surfaces, occupancy, media = on.media, clouds,
-       maps, into](gpu::Commands& c) {
+      [programs = std::move(programs), scene, tiles, surfaces, walls, lights, media = on.media,
+       clouds, maps, into, own](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::texels<shared::kIslandsBinding>(scene.islands),
@@ -197,8 +240,10 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
             gpu::texels<shared::kIndirectBinding>(scene.indirect),
             gpu::texels<shared::kIslandSkiesBinding>(scene.island_skies),
             gpu::storage<shared::kPixelStatsBinding>(scene.pixel_stats),
-            surfaces.bindings(scene.point_sampler),
-            occupancy.bindings(),
+            own,
+            walls.bindings(),
+            lights.bindings(),
+            lights.reach_binding(),
             media.bindings(scene),
             clouds.light_bindings(),
             gpu::sampled<shared::kBlockTexturesBinding>(scene.block_textures, scene.block_sampler),
@@ -211,6 +256,22 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
           dispatch_tiles(c, tiles, some.first);
         }
       });
+}
+
+/// As shade_surfaces_by(), from the G-buffer as it is kept.
+void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
+                    const SurfacesIn& from, ShadeTarget& into) {
+  const SurfaceReads surfaces(from.on.geometry);
+  if (from.on.geometry.stored()) {
+    const std::tuple own{surfaces.bindings(scene.point_sampler)};
+    shade_surfaces_by(programs::kShadeStoredSurfaces, own, graph, pipelines, scene, from, into);
+    return;
+  }
+  const ClusteredLights lights = from.lamps ? *from.lamps : ClusteredLights::none(scene);
+  const std::tuple own{gpu::storage<shared::kSurfacesBinding>(surfaces.words),
+                       gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
+                       lights.shaft_binding()};
+  shade_surfaces_by(programs::kShadeSurfaces, own, graph, pipelines, scene, from, into);
 }
 
 /// Adds sky to the pixels without a surface.
@@ -272,26 +333,30 @@ void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
            const ShadedFrom& from, const ShadeIn& in, ShadeTarget& into) {
   const bool some_sunless = looks_for_sunless(scene, in, from);
   if (!some_sunless && into.picture && into.radiance && from.layers.count != 0)
-    into.layer_tiles = from.layers.tiles.dispatches;
+    into.layer_tiles = from.layers.tiles.lists;
   const Tiles tiles =
       into.layer_tiles || sky_may_differ(scene, in)
           ? classify_shaded_tiles(graph, pipelines, scene, in, from.geometry, into.layer_tiles)
-      : some_sunless ? classify_lit_tiles(graph, pipelines, scene, from)
+      : some_sunless ? classify_lit_tiles(graph, pipelines, scene, from, lamp_reads(scene, in))
                      : classify_tiles(graph, pipelines, scene, "classify_tiles",
                                       {.words = from.geometry.surfaces(),
                                        .depth = from.geometry.depth(),
                                        .kept = from.geometry.store().depth,
-                                       .area = {0, 0, scene.size.width, scene.size.height}});
-  std::vector<OutputTiles> lit = into.tiles_of(TileKind::kCovered);
-  if (some_sunless) lit.push_back({TileKind::kInWater, true});
+                                       .area = {0, 0, scene.size.width, scene.size.height},
+                                       .lamps = lamp_reads(scene, in)});
+  std::vector<TileKind> sunlit = sunlit_tiles(into, false, some_sunless);
+  if (in.lamps && !in.sampled)
+    for (const TileKind kind : sunlit_tiles(into, true, some_sunless)) sunlit.push_back(kind);
   const MediaLight media =
       MediaLight::add(graph, pipelines, scene,
-                      {from.geometry, from.layers, from.glass, from.shadows.maps()}, tiles, lit);
+                      {from.geometry, from.layers, from.glass, from.shadows.maps()}, tiles, sunlit);
   const SampleIn on{from.geometry, from.shadows, media, tiles};
-  if (in.sampled)
-    add_sample_passes(graph, pipelines, scene, on, *in.sampled, into);
-  else
-    shade_surfaces(graph, pipelines, scene, in, on, some_sunless, into);
+  if (in.sampled) {
+    add_sample_passes(graph, pipelines, scene, on, {in.lamps, in.settings}, into);
+  } else {
+    shade_surfaces(graph, pipelines, scene, {in, on, nullptr, some_sunless}, into);
+    if (in.lamps) shade_surfaces(graph, pipelines, scene, {in, on, in.lamps, some_sunless}, into);
+  }
   shade_sky(graph, pipelines, scene, in, on, into);
 }
 
@@ -321,9 +386,7 @@ void shade_sky_everywhere(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, Sce
                   // Neither surfaces nor tiles are read.
                   gpu::storage<shared::kSurfacesBinding>(scene.no_words),
                   gpu::sampled<shared::kDepthsBinding>(scene.sky_lut, scene.point_sampler),
-                  gpu::storage<shared::kTilesBinding>(scene.materials),
-                  gpu::storage<shared::kTileDispatchesBinding>(scene.materials),
-                  gpu::constants(0u));
+                  gpu::storage<shared::kTilesBinding>(scene.materials), gpu::constants(0u));
         c.dispatch(gpu::Commands::groups(scene.size.width, shared::kTileEdge),
                    gpu::Commands::groups(scene.size.height, shared::kTileEdge), 1);
       });

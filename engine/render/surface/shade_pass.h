@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/scene_refs.h"
@@ -12,12 +11,11 @@ class Image;
 namespace skerry::render {
 
 struct ShadeIn {
-  int texture_taps = 2;  ///< samples along the long side of a texture footprint
-  bool stars = false;    ///< whether any star can be seen
-  bool discs = true;     ///< whether the sun's or the moon's disc may be in the picture
-  bool oracle = false;   ///< every pixel asks sun and moon, whatever is known of its tile
-  /// None: the sun and the moon light every pixel. Else add() lights fewer, with the lights too.
-  std::optional<SampledLight> sampled{};
+  const RenderSettings& settings;
+  bool stars = false;  ///< whether any star can be seen
+  bool discs = true;   ///< whether the sun's or the moon's disc may be in the picture
+  const ClusteredLights* lamps = nullptr;  ///< null: the frame has none
+  bool sampled = false;                    ///< light is that of fewer pixels: add_sample_passes()
 };
 
 /// What opaque surfaces are shaded from.
@@ -35,7 +33,7 @@ struct ShadeOut {
   const MeterSettings* metered;  ///< null: the meter looks at nothing that is in the picture
 };
 
-/// Light for every pixel, in compute, by tiles: surfaces under sun and moon, sky elsewhere.
+/// Light for every pixel, in compute, by tiles: surfaces under sun, moon and lamps, sky elsewhere.
 struct ShadePass {
   /// @param from null: a frame without geometry, of sky alone.
   static Shaded add(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,

@@ -16,6 +16,8 @@ TileKind kept(TileKind kind) {
       return TileKind::kKeptCovered;
     case TileKind::kOpen:
       return TileKind::kKeptOpen;
+    case TileKind::kLampLit:
+      return TileKind::kKeptLampLit;
     case TileKind::kSmoothSky:
       return TileKind::kKeptSmoothSky;
     case TileKind::kPlainSquares:

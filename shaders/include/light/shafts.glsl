@@ -50,6 +50,7 @@ uint open_of(ShaftList list, uint word) {
 }
 #else
 const bool kShafts = false;
+ShaftList shafts_at(uvec2 pixel, float z) { return kNoShafts; }
 uint asked_of(ShaftList list, uint word, uint count) { return places_of(word, count); }
 uint open_of(ShaftList list, uint word) { return 0u; }
 #endif

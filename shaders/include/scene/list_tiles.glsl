@@ -2,9 +2,12 @@
 #ifndef SKERRY_LIST_TILES_GLSL
 #define SKERRY_LIST_TILES_GLSL
 #include "shared/bindings.h"
+#include "shared/constants.h"
 
-layout(scalar, binding = kTileDispatchesBinding) buffer Dispatches { TileDispatch dispatches[]; };
-layout(scalar, binding = kTilesBinding) writeonly buffer Tiles { uint tiles[]; };  // [kind][tile]: x | y << 16
+layout(scalar, binding = kTilesBinding) buffer Tiles {
+  TileDispatch dispatches[kListKinds];
+  uint tiles[];  // [kind][tile]: x | y << 16
+};
 
 // @param count of tiles of the picture, across and down. @param per_group tiles that a work group takes.
 void list_tile_of(uint kind, uvec2 tile, uvec2 count, const uint per_group) {

@@ -4,8 +4,7 @@
 #include "shared/bindings.h"
 #include "shared/constants.h"
 
-layout(scalar, binding = kTilesBinding) readonly buffer Tiles { uint tiles[]; };  // x | y << 16
-layout(scalar, binding = kTileDispatchesBinding) readonly buffer Dispatches { TileDispatch dispatches[]; };
+layout(scalar, binding = kTilesBinding) readonly buffer Tiles { TileDispatch dispatches[kListKinds]; uint tiles[]; };  // x | y << 16
 layout(push_constant) uniform Push { uint kind; } push;  // of tiles: render::TileKind
 
 bool is_listed(uint slot) { return slot < dispatches[push.kind].tiles; }

@@ -4,7 +4,6 @@
 
 #include <type_traits>
 
-#include "engine/render/light/light_pass.h"
 #include "engine/render/light/shadow_pass.h"
 #include "engine/render/post/develop_pass.h"
 #include "engine/render/scene/geometry_pass.h"
@@ -65,14 +64,6 @@ constexpr bool kLooksThrough =
 static_assert(kLooksThrough<Shaded>);
 static_assert(!kLooksThrough<Shaded&> && !kLooksThrough<const Shaded&>, "drawn over twice");
 static_assert(!kLooksThrough<Developed>, "translucent surfaces after the tone curve");
-
-template <class Input>
-constexpr bool kLights =
-    std::is_invocable_v<decltype(&LightPass::add), gpu::FrameGraph&, gpu::Pipelines&, SceneRefs&,
-                        const LightPass::In&, Input>;
-static_assert(kLights<Shaded>);
-static_assert(!kLights<Shaded&> && !kLights<const Shaded&>, "lit twice");
-static_assert(!kLights<Developed>, "lights after the tone curve");
 
 }  // namespace
 }  // namespace skerry::render
