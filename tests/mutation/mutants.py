@@ -43,6 +43,8 @@ MUTANTS = (
            "village_night cave_torches"),
     Mutant("light_bins_short", "one light of 32 is never asked", "shaders/light/sort_lights.comp",
            "word * 32u + 32u, grid.light_count", "word * 32u + 31u, grid.light_count", "village_night"),
+    Mutant("tile_lamps_elsewhere", "tiles are lit by lamps of other tiles", "shaders/include/light/lit_tiles.glsl",
+           "tile_at(tile * kTileEdge)", "tile_at(tile)", "cave_torches"),
     # Shadows
     Mutant("cascade_shifted_a_texel", "the second cascade is read a texel beside", "shaders/include/light/shadow.glsl",
            "if (kCascades > 1u) c = selected(index == 1u, c, frame.cascades[base + 1u]);",

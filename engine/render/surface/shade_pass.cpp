@@ -231,8 +231,8 @@ void shade_surfaces_by(const Shader& shader, const std::tuple<Own...>& own, gpu:
         scene.pixel_stats = b.write(scene.pixel_stats, Use::kComputeWrite);
         into.declare(b, scene);
       },
-      [programs = std::move(programs), scene, tiles, surfaces, walls, lights, media = on.media,
-       clouds, maps, into, own](gpu::Commands& c) {
+      [programs = std::move(programs), scene, tiles, walls, lights, media = on.media, clouds, maps,
+       into, own](gpu::Commands& c) {
         const std::tuple bindings{
             gpu::storage<shared::kFrameBinding>(scene.frame),
             gpu::texels<shared::kIslandsBinding>(scene.islands),
