@@ -17,16 +17,14 @@ namespace {
 using gpu::Use;
 
 static_assert(shared::kClusterGroup == 64);  // of dispatch_items()
-static_assert(offsetof(shared::TileDispatch, groups_z) == 8 &&
-              offsetof(shared::ClusterWork, groups_z) == 8);
 
 /// A dispatch without work groups, nothing counted. @param layers of work groups.
-void fill_dispatch(gpu::Commands& c, gpu::BufferRef to, std::uint64_t size_bytes,
-                   std::uint32_t layers) {
-  c.fill(to, 0, 4, 0);
-  c.fill(to, 4, 4, 1);
-  c.fill(to, 8, 4, layers);
-  c.fill(to, 12, size_bytes - 12, 0);
+void clear_work(gpu::Commands& c, gpu::BufferRef work, std::uint32_t layers) {
+  c.fill(work, offsetof(shared::ClusterWork, groups_x), 4, 0);
+  c.fill(work, offsetof(shared::ClusterWork, groups_y), 4, 1);
+  c.fill(work, offsetof(shared::ClusterWork, groups_z), 4, layers);
+  constexpr std::uint64_t kCounted = offsetof(shared::ClusterWork, clusters);
+  c.fill(work, kCounted, sizeof(shared::ClusterWork) - kCounted, 0);
 }
 
 /// What every step of sort_lights.comp reads, whether it looks at it or not.
@@ -127,9 +125,7 @@ void add_list_clusters(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
   graph.add_pass(
       "list_light_clusters_clear",
       [&](gpu::PassBuilder& p) { b.work = p.write(b.work, Use::kTransferWrite); },
-      [work = b.work, chunks = grid.chunks](gpu::Commands& c) {
-        fill_dispatch(c, work, sizeof(shared::ClusterWork), chunks);
-      });
+      [work = b.work, chunks = grid.chunks](gpu::Commands& c) { clear_work(c, work, chunks); });
   Lists lists(b.occupied);
   lists.small_tiles = b.small_tiles;
   lists.tiles = b.tiles;
@@ -247,7 +243,10 @@ ClusteredLights LightClusters::add(gpu::FrameGraph& graph, gpu::Pipelines& pipel
   out.lights = graph.import(lights_);
   out.reaches = reaches_ ? graph.import(reaches_) : out.lights;
   work_ = {};
-  if (oracle) return out;
+  if (oracle) {
+    out.clusters = out.entries = out.tile_depths = out.lights;
+    return out;
+  }
   Buffers b;
   b.in = {out.grid, out.lights, scene.islands, out.reaches, depths, scene.point_sampler};
   b.small_tiles = create("tile depths", std::uint64_t{small} * sizeof(shared::TileDepths));

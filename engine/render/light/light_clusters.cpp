@@ -151,29 +151,27 @@ ClusteredLights ClusteredLights::none(const SceneRefs& scene) {
   ClusteredLights out;
   out.grid = scene.frame;
   out.lights = scene.islands;
-  out.reaches = out.clusters = out.entries = scene.materials;
+  out.reaches = out.clusters = out.entries = out.tile_depths = scene.materials;
   return out;
 }
 
-LampReads ClusteredLights::tiles() const {
+LampReads ClusteredLights::tile_reads() const {
   return {.grid = grid,
-          // Under the oracle none is read: lights are bound in their place.
-          .clusters = oracle ? lights : clusters,
-          .depths = oracle ? lights : tile_depths,
-          .lit = true,
+          .clusters = clusters,
+          .depths = tile_depths,
+          .lit = kinds != 0,
           .oracle = oracle};
 }
 
 void ClusteredLights::declare_counts(gpu::PassBuilder& builder) const {
   builder.read(grid, Use::kComputeRead);
-  builder.read(oracle ? lights : clusters, Use::kComputeRead);
+  builder.read(clusters, Use::kComputeRead);
 }
 
 void ClusteredLights::declare(gpu::PassBuilder& builder) const {
   declare_counts(builder);
   builder.read(reaches, Use::kComputeRead);
   if (shafts) builder.read(shafts, Use::kComputeRead);
-  if (oracle) return;
   builder.read(lights, Use::kComputeRead);
   builder.read(entries, Use::kComputeRead);
 }

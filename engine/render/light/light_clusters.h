@@ -53,10 +53,12 @@ shared::ClusterGrid cluster_grid(const CameraView& camera, const ClusterPicture&
 struct ClusteredLights {
   gpu::BufferRef grid, reaches, clusters, entries;
   gpu::BufferRef lights;       ///< texels of shared::Light[], then of shared::LightPane[]
-  gpu::BufferRef tile_depths;  ///< shared::TileDepths[8x8 tile]; empty under the oracle
+  gpu::BufferRef tile_depths;  ///< shared::TileDepths[8x8 tile]
   std::uint32_t kinds = 0;     ///< bit a kind that the frame has; 0: there are none
   bool panes = false;          ///< some light has any
-  bool oracle = false;         ///< nothing is sorted: every pixel asks every light
+  /// Nothing is sorted: every pixel asks every light. The lights stand in for what is then never
+  /// read, so that every binding is valid.
+  bool oracle = false;
   gpu::BufferRef shafts;  ///< shared::TileShafts[8x8 tile], see ShaftPass; empty: nothing is known
 
   /// For a frame without lights: buffers that are never read.
@@ -67,19 +69,17 @@ struct ClusteredLights {
   /// Of a pass that includes shaders/include/light/light_panes.glsl.
   std::vector<gpu::SpecConstant> with_panes(std::vector<gpu::SpecConstant> own) const;
   /// For a pass that tells tiles apart that some light reaches.
-  LampReads tiles() const;
+  LampReads tile_reads() const;
   /// Of a pass that asks only how many lights a cluster has.
   void declare_counts(gpu::PassBuilder& builder) const;
   auto count_bindings() const {
-    // The oracle reads no lists; its lights are bound in their place so that every binding is
-    // valid.
     return std::tuple{gpu::storage<shared::kLightGridBinding>(grid),
-                      gpu::storage<shared::kClustersBinding>(oracle ? lights : clusters)};
+                      gpu::storage<shared::kClustersBinding>(clusters)};
   }
   void declare(gpu::PassBuilder& builder) const;
   auto bindings() const {
     return std::tuple{count_bindings(), gpu::texels<shared::kLightsBinding>(lights),
-                      gpu::storage<shared::kLightEntriesBinding>(oracle ? lights : entries)};
+                      gpu::storage<shared::kLightEntriesBinding>(entries)};
   }
   /// Of a pass that includes shaders/include/light/blocked_lights.glsl, beside bindings().
   auto reach_binding() const { return gpu::storage<shared::kLightReachBinding>(reaches); }

@@ -55,11 +55,6 @@ bool looks_for_sunless(const SceneRefs& scene, const ShadeIn& in, const ShadedFr
          !from.geometry.stored() && std::has_single_bit(scene.bodies);
 }
 
-/// Tiles that lamps reach are told apart where they have a program of their own.
-LampReads lamp_reads(const SceneRefs& scene, const ShadeIn& in) {
-  return in.lamps && !in.sampled ? in.lamps->tiles() : LampReads::none(scene);
-}
-
 /// As classify_tiles(), with kSunless and kInWater.
 Tiles classify_lit_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, const SceneRefs& scene,
                          const ShadedFrom& from, const LampReads& lamps) {
@@ -107,12 +102,11 @@ bool looks_for_squares(const ShadeIn& in) {
 /// if there are `layer_tiles`, dispatches of those that show water or glass.
 Tiles classify_shaded_tiles(gpu::FrameGraph& graph, gpu::Pipelines& pipelines,
                             const SceneRefs& scene, const ShadeIn& in, const Geometry& geometry,
-                            gpu::BufferRef layer_tiles) {
+                            gpu::BufferRef layer_tiles, const LampReads& lamps) {
   const std::uint32_t tiles = tile_count(scene.size);
   Tiles out = create_tiles(graph, "classify_tiles_clear", tiles, looks_for_squares(in));
   out.smooth_sky = sky_may_differ(scene, in);
   const SurfaceReads surfaces(geometry);
-  const LampReads lamps = lamp_reads(scene, in);
   const bool detail = looks_for_detail(scene, in);
   // In place of what is then never read.
   const gpu::BufferRef layers = layer_tiles ? layer_tiles : scene.frame;
@@ -174,8 +168,10 @@ std::vector<TileKind> sunlit_tiles(const ShadeTarget& into, bool lit, bool some_
 struct SurfacesIn {
   const ShadeIn& in;
   const SampleIn& on;
-  const ClusteredLights* lamps;  ///< of the tiles that they reach; null: of the others
-  bool some_sunless;             ///< whether the tiles are of classify_lit_tiles()
+  ClusteredLights lamps;  ///< of the tiles that they reach; none: of the others
+  bool some_sunless;      ///< whether the tiles are of classify_lit_tiles()
+
+  bool lit() const { return lamps.kinds != 0; }
 };
 
 /// Adds surfaces. @param shader with the bindings `own` besides those of all.
@@ -185,20 +181,19 @@ void shade_surfaces_by(const Shader& shader, const std::tuple<Own...>& own, gpu:
                        ShadeTarget& into) {
   const SampleIn& on = from.on;
   const RenderSettings& settings = from.in.settings;
-  const ClusteredLights* const lamps = from.lamps;
-  const bool ao = scene.ao && (lamps || scene.bodies != 0);
+  const ClusteredLights& lights = from.lamps;
+  const bool ao = scene.ao && (from.lit() || scene.bodies != 0);
   const Tiles& tiles = on.tiles;
   const SurfaceReads surfaces(on.geometry);
   const gpu::ImageRef maps = on.shadows.maps();
   const WallReads walls(scene, settings, ao);
   const CloudRefs clouds = clouds_before_light(scene);
-  const ClusteredLights lights = lamps ? *lamps : ClusteredLights::none(scene);
   const auto program = [&](const OutputTiles& some) {
     std::vector<gpu::SpecConstant> constants = with_light(
         {{shared::kTextureTapsConstant, static_cast<std::uint32_t>(settings.texture_taps)}}, scene,
         bool{maps});
     constants = clouds.with_clouds(with_ao(surfaces.with_store(std::move(constants)), ao));
-    if (lamps) constants = walls.with_walls(lights.with_panes(std::move(constants)));
+    if (from.lit()) constants = walls.with_walls(lights.with_panes(std::move(constants)));
     // Nothing under water is in a sunless tile, and glass takes no light of the sky.
     if (is_sunless(some.kind))
       constants.push_back({shared::kSunlessConstant, 1});
@@ -211,10 +206,10 @@ void shade_surfaces_by(const Shader& shader, const std::tuple<Own...>& own, gpu:
   };
   std::vector<std::pair<TileKind, decltype(program(OutputTiles{}))>> programs;
   for (const OutputTiles& some :
-       surface_tiles(into, lamps != nullptr, from.some_sunless, on.media.has_water()))
+       surface_tiles(into, from.lit(), from.some_sunless, on.media.has_water()))
     programs.push_back(std::pair(some.kind, program(some)));
   graph.add_pass(
-      lamps ? "shade_lights" : "shade_surfaces",
+      from.lit() ? "shade_lights" : "shade_surfaces",
       [&](gpu::PassBuilder& b) {
         for (const gpu::BufferRef ref :
              {scene.frame, scene.islands, scene.materials, scene.indirect, scene.island_skies})
@@ -267,10 +262,9 @@ void shade_surfaces(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs
     shade_surfaces_by(programs::kShadeStoredSurfaces, own, graph, pipelines, scene, from, into);
     return;
   }
-  const ClusteredLights lights = from.lamps ? *from.lamps : ClusteredLights::none(scene);
   const std::tuple own{gpu::storage<shared::kSurfacesBinding>(surfaces.words),
                        gpu::sampled<shared::kDepthsBinding>(surfaces.depth, scene.point_sampler),
-                       lights.shaft_binding()};
+                       from.lamps.shaft_binding()};
   shade_surfaces_by(programs::kShadeSurfaces, own, graph, pipelines, scene, from, into);
 }
 
@@ -332,20 +326,25 @@ void shade_sky(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& sce
 void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
            const ShadedFrom& from, const ShadeIn& in, ShadeTarget& into) {
   const bool some_sunless = looks_for_sunless(scene, in, from);
+  // Tiles that lamps reach are told apart where they have a program of their own.
+  const ClusteredLights none = ClusteredLights::none(scene),
+                        lamps = in.lamps && !in.sampled ? *in.lamps : none;
+  const LampReads reads = lamps.tile_reads();
   if (!some_sunless && into.picture && into.radiance && from.layers.count != 0)
     into.layer_tiles = from.layers.tiles.lists;
-  const Tiles tiles =
-      into.layer_tiles || sky_may_differ(scene, in)
-          ? classify_shaded_tiles(graph, pipelines, scene, in, from.geometry, into.layer_tiles)
-      : some_sunless ? classify_lit_tiles(graph, pipelines, scene, from, lamp_reads(scene, in))
-                     : classify_tiles(graph, pipelines, scene, "classify_tiles",
-                                      {.words = from.geometry.surfaces(),
-                                       .depth = from.geometry.depth(),
-                                       .kept = from.geometry.store().depth,
-                                       .area = {0, 0, scene.size.width, scene.size.height},
-                                       .lamps = lamp_reads(scene, in)});
+  const Tiles tiles = into.layer_tiles || sky_may_differ(scene, in)
+                          ? classify_shaded_tiles(graph, pipelines, scene, in, from.geometry,
+                                                  into.layer_tiles, reads)
+                      : some_sunless
+                          ? classify_lit_tiles(graph, pipelines, scene, from, reads)
+                          : classify_tiles(graph, pipelines, scene, "classify_tiles",
+                                           {.words = from.geometry.surfaces(),
+                                            .depth = from.geometry.depth(),
+                                            .kept = from.geometry.store().depth,
+                                            .area = {0, 0, scene.size.width, scene.size.height},
+                                            .lamps = reads});
   std::vector<TileKind> sunlit = sunlit_tiles(into, false, some_sunless);
-  if (in.lamps && !in.sampled)
+  if (reads.lit)
     for (const TileKind kind : sunlit_tiles(into, true, some_sunless)) sunlit.push_back(kind);
   const MediaLight media =
       MediaLight::add(graph, pipelines, scene,
@@ -354,8 +353,8 @@ void shade(gpu::FrameGraph& graph, gpu::Pipelines& pipelines, SceneRefs& scene,
   if (in.sampled) {
     add_sample_passes(graph, pipelines, scene, on, {in.lamps, in.settings}, into);
   } else {
-    shade_surfaces(graph, pipelines, scene, {in, on, nullptr, some_sunless}, into);
-    if (in.lamps) shade_surfaces(graph, pipelines, scene, {in, on, in.lamps, some_sunless}, into);
+    shade_surfaces(graph, pipelines, scene, {in, on, none, some_sunless}, into);
+    if (reads.lit) shade_surfaces(graph, pipelines, scene, {in, on, lamps, some_sunless}, into);
   }
   shade_sky(graph, pipelines, scene, in, on, into);
 }

@@ -1,5 +1,4 @@
 #pragma once
-
 #include "engine/render/frame/phases.h"
 #include "engine/render/frame/scene_refs.h"
 #include "engine/render/surface/sample_pass.h"

@@ -39,13 +39,6 @@ layout(constant_id = kLitConstant) const bool kLit = false;  // tiles that lamps
 #include "include/light/light_panes.glsl"
 #include "include/light/blocked_lights.glsl"
 
-vec3 light_of_lamps(Surface s, Brdf b, vec3 to_eye, uint word, uvec2 pixel, float depth, bool here) {
-  float z = view_distance(depth, frame.near_plane);
-  Cluster list = lights_at(pixel, z);
-  if (!here) list.count = 0u;
-  return lights_reflected(list, shafts_at(pixel, z), b, way_start(s, word), to_eye) * s.ao;
-}
-
 void main() {
   uvec2 pixel;
   bool here = tile_pixel(pixel);
@@ -62,7 +55,13 @@ void main() {
   Brdf b = surface_brdf(surface, to_eye);
   if (kIndirect != kIndirectOff) lit += sky.irradiance * brdf_around(b);
   vec3 colour = seen_through_air(lit, surface.position, sky.seen);
-  if (kLit) colour += light_of_lamps(surface, b, to_eye, word, pixel, depth, here) * clear_air(surface.position);
+  if (kLit) {
+    float z = view_distance(depth, frame.near_plane);
+    Cluster list = lights_at(pixel, z);
+    if (!here) list.count = 0u;
+    vec3 light = lights_reflected(list, shafts_at(pixel, z), b, way_start(surface, word), to_eye) * surface.ao;
+    colour += light * clear_air(surface.position);
+  }
   put_pixel(pixel, colour, here);
 }
 #endif
